@@ -5,7 +5,7 @@
 #include "app/pipeline/single_trip.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "app/profile/identify_output.hpp"
-#include "app/profile/place_on_profile.hpp"
+#include "app/profile/locate_on_profile.hpp"
 
 #include "estimator/common/error.hpp"
 #include "estimator/motion/stretch.hpp"
@@ -100,7 +100,7 @@ struct LocatedTrip {
     std::string name;
     std::vector<Stretch> stretches;
     RoadProfile road;
-    PlaceOnProfile place;
+    ProfilePosition place;
 };
 
 InputError nothing_on_profile(const LocatedTrip& trip, const IdentifyOptions& options) {
@@ -253,7 +253,7 @@ void run_identify(const Arguments& arguments, const Console& console) {
         console.warn(chosen.warning);
     }
     auto stretches = with_trip_name(source.name(), [&] { return stretches_of(trip); });
-    const auto place = place_on_profile(
+    const auto place = locate_on_profile(
         stretches, road, chosen.vehicle, options.at_m, options.trip, options.profile);
     const LocatedTrip located{source.name(), std::move(stretches), road, place};
     const bool by_likelihood = is_likelihood(chosen.vehicle, options, console);

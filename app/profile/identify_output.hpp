@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/profile/place_on_profile.hpp"
+#include "app/profile/locate_on_profile.hpp"
 #include "estimator/identification/likelihood/likelihood_fit.hpp"
 #include "estimator/identification/spectrum_fit.hpp"
 
@@ -19,9 +19,9 @@ struct IdentifyOutput {
 /// \param identified  the vehicle that is written
 IdentifyOutput output_of(const SpectrumFit& fit,
                          const ProfileResponse& ride,
-                         const PlaceOnProfile& place,
+                         const ProfilePosition& place,
                          const Vehicle& identified);
 IdentifyOutput
-output_of(const LikelihoodFit& fit, const PlaceOnProfile& place, const Vehicle& identified);
+output_of(const LikelihoodFit& fit, const ProfilePosition& place, const Vehicle& identified);
 
 } // namespace macadam

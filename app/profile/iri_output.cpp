@@ -170,7 +170,7 @@ void print_points(const IriQuestion& question, double base_m, const IriWords& wo
     rows.end();
 }
 
-std::string row_of(const std::string& channel, const RoughPlace& place, const IriWords& words) {
+std::string row_of(const std::string& channel, const RoughInterval& place, const IriWords& words) {
     const double scale = scale_of(words);
     if (words.json) {
         JsonObject object;
@@ -192,7 +192,7 @@ std::string row_of(const std::string& channel, const RoughPlace& place, const Ir
 /// Search on each track and, last, on the mean of left and right.
 struct Search {
     std::vector<std::string> names;
-    std::vector<RoughPlaces> places;
+    std::vector<RoughIntervalFinder> places;
 };
 
 void print_places(const IriQuestion& question,
@@ -201,7 +201,7 @@ void print_places(const IriQuestion& question,
                   const IriWords& words) {
     Rows rows{words};
     Search search;
-    const auto tell = [&](std::size_t channel, const std::optional<RoughPlace>& place) {
+    const auto tell = [&](std::size_t channel, const std::optional<RoughInterval>& place) {
         if (place) {
             rows.row(row_of(search.names[channel], *place, words));
         }
@@ -211,7 +211,7 @@ void print_places(const IriQuestion& question,
         if (head.has_mri) {
             search.names.emplace_back("mri");
         }
-        search.places.assign(search.names.size(), RoughPlaces{threshold / scale_of(words)});
+        search.places.assign(search.names.size(), RoughIntervalFinder{threshold / scale_of(words)});
         rows.begin("channel,from_m,to_m,peak,peak_at_m\n",
                    json_begin(head, threshold, words, "places"));
     };

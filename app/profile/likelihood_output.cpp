@@ -52,10 +52,10 @@ std::string correlation_text(const LikelihoodFit& fit) {
     return text;
 }
 
-std::string table_of(const LikelihoodFit& fit, const PlaceOnProfile& place) {
+std::string table_of(const LikelihoodFit& fit, const ProfilePosition& place) {
     auto text = fmt::format("{}\ncompared: stations {:.1f} to {:.1f} m, {:.0f} s, corrected by "
                             "{:.2f} to {:.2f} m\n\n",
-                            place_text(place),
+                            position_text(place),
                             fit.from_m,
                             fit.to_m,
                             fit.duration_s,
@@ -157,7 +157,7 @@ JsonValue misfit_of(const LikelihoodFit& fit, Channel channel) {
 }
 
 std::string
-json_of(const LikelihoodFit& fit, const PlaceOnProfile& place, const Vehicle& identified) {
+json_of(const LikelihoodFit& fit, const ProfilePosition& place, const Vehicle& identified) {
     const auto modes = modes_of(fit.vehicle.half_car);
     const auto correlation = place.found ? std::optional{place.found->correlation} : std::nullopt;
     JsonObject object;
@@ -197,7 +197,7 @@ std::string figure_of(const LikelihoodFit& fit) {
 } // namespace
 
 IdentifyOutput
-output_of(const LikelihoodFit& fit, const PlaceOnProfile& place, const Vehicle& identified) {
+output_of(const LikelihoodFit& fit, const ProfilePosition& place, const Vehicle& identified) {
     return {.table = table_of(fit, place),
             .json = json_of(fit, place, identified),
             .csv = csv_of(fit),

@@ -73,10 +73,10 @@ std::string misfit_text(std::string_view name, const ChannelSpectra& spectra) {
 
 std::string table_of(const SpectrumFit& fit,
                      const ProfileResponse& ride,
-                     const PlaceOnProfile& place,
+                     const ProfilePosition& place,
                      const Vehicle& vehicle) {
     auto text = fmt::format("{}\ncompared: stations {:.1f} to {:.1f} m, {:.0f} s\n\n",
-                            place_text(place),
+                            position_text(place),
                             ride.from_m,
                             ride.to_m,
                             static_cast<double>(ride.vertical_mps2.size() - 1) * ride.step_s);
@@ -127,7 +127,7 @@ std::string csv_of(const SpectrumFit& fit) {
 
 std::string json_of(const SpectrumFit& fit,
                     const ProfileResponse& ride,
-                    const PlaceOnProfile& place,
+                    const ProfilePosition& place,
                     const Vehicle& vehicle) {
     JsonObject parameters;
     for (const auto& [name, start, found, decimals] : rows_of(fit)) {
@@ -174,7 +174,7 @@ std::string figure_of(const SpectrumFit& fit) {
 
 IdentifyOutput output_of(const SpectrumFit& fit,
                          const ProfileResponse& ride,
-                         const PlaceOnProfile& place,
+                         const ProfilePosition& place,
                          const Vehicle& identified) {
     return {.table = table_of(fit, ride, place, identified),
             .json = json_of(fit, ride, place, identified),

@@ -194,7 +194,7 @@ selected_states(const StoreReader& store, const SegmentFilter& filter, const Geo
     return states;
 }
 
-struct Place {
+struct DrawnSegment {
     std::int64_t way_id;
     std::uint32_t index;
     std::size_t line;
@@ -202,13 +202,15 @@ struct Place {
 
 /// Marks roads with segments in both directions. A road driven one way only is still two-way if the
 /// map allows both.
-void pair_directions(std::vector<MapLine>& lines, std::vector<Place> places) {
-    const auto key = [](const Place& place) { return std::pair{place.way_id, place.index}; };
-    std::ranges::sort(places, {}, key);
-    for (std::size_t i = 1; i < places.size(); ++i) {
-        if (key(places[i]) == key(places[i - 1])) {
-            lines[places[i].line].both_ways = true;
-            lines[places[i - 1].line].both_ways = true;
+void pair_directions(std::vector<MapLine>& lines, std::vector<DrawnSegment> drawn) {
+    const auto key = [](const DrawnSegment& segment) {
+        return std::pair{segment.way_id, segment.index};
+    };
+    std::ranges::sort(drawn, {}, key);
+    for (std::size_t i = 1; i < drawn.size(); ++i) {
+        if (key(drawn[i]) == key(drawn[i - 1])) {
+            lines[drawn[i].line].both_ways = true;
+            lines[drawn[i - 1].line].both_ways = true;
         }
     }
 }
@@ -246,7 +248,7 @@ std::vector<MapLine> map_lines(const StoreReader& store,
     SegmentFilter all;
     all.with_state_only = false;
     std::vector<MapLine> lines;
-    std::vector<Place> places;
+    std::vector<DrawnSegment> drawn;
     visit_box(store, all, box, [&](const SegmentRecord& record) {
         const auto& key = record.segment.key;
         MapLine line;
@@ -255,10 +257,10 @@ std::vector<MapLine> map_lines(const StoreReader& store,
         line.rank = rank_of(record.highway);
         line.name = record.name;
         paint(record, line);
-        places.push_back({key.way_id, key.index, lines.size()});
+        drawn.push_back({key.way_id, key.index, lines.size()});
         lines.push_back(std::move(line));
     });
-    pair_directions(lines, std::move(places));
+    pair_directions(lines, std::move(drawn));
     return lines;
 }
 

@@ -129,7 +129,7 @@ MapPlan bare_plan(const MapPlan& plan, const PictureOutput& output) {
     return {std::move(scene), std::move(style), size};
 }
 
-PlacedPicture placed(const MapPlan& plan) {
+PictureFrame placed(const MapPlan& plan) {
     const auto place = plan.place();
     const auto& projection = plan.scene().projection;
     return {.width_px = plan.size().width_px,

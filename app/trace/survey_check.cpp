@@ -12,10 +12,10 @@ namespace macadam {
 namespace {
 
 /// Returns the positions of the centre of gravity, from plausible fixes.
-std::vector<TripPlaceAt>
+std::vector<TravelPosition>
 places_of(const TripLog& trip, const Odometer& odometer, const Vehicle& vehicle) {
     const double ahead_m = antenna_ahead_m(trip.meta, vehicle);
-    std::vector<TripPlaceAt> places;
+    std::vector<TravelPosition> places;
     for (const auto& place : track_of(trip, OdometerConfig{}, &odometer).places) {
         const double travel_m = odometer.travel_m(place.t_s) + ahead_m;
         if (places.empty() || travel_m > places.back().travel_m) {

@@ -34,23 +34,23 @@ std::optional<double> MovingMean::push(double value) {
     return (sum_ - left_out * last_[pushed_ % size]) / count_;
 }
 
-std::optional<RoughPlace> RoughPlaces::push(double at_m, double value) {
+std::optional<RoughInterval> RoughIntervalFinder::push(double at_m, double value) {
     if (!(value > threshold_)) {
         return finish();
     }
-    if (!place_) {
-        place_ = RoughPlace{.from_m = at_m, .to_m = at_m, .peak = value, .peak_at_m = at_m};
+    if (!interval_) {
+        interval_ = RoughInterval{.from_m = at_m, .to_m = at_m, .peak = value, .peak_at_m = at_m};
     }
-    place_->to_m = at_m;
-    if (value > place_->peak) {
-        place_->peak = value;
-        place_->peak_at_m = at_m;
+    interval_->to_m = at_m;
+    if (value > interval_->peak) {
+        interval_->peak = value;
+        interval_->peak_at_m = at_m;
     }
     return {};
 }
 
-std::optional<RoughPlace> RoughPlaces::finish() {
-    return std::exchange(place_, std::nullopt);
+std::optional<RoughInterval> RoughIntervalFinder::finish() {
+    return std::exchange(interval_, std::nullopt);
 }
 
 } // namespace macadam

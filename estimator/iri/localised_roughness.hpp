@@ -28,27 +28,27 @@ private:
 };
 
 /// Interval in which a moving mean stays above a threshold.
-struct RoughPlace {
+struct RoughInterval {
     double from_m; ///< centre of the first base above the threshold
     double to_m;   ///< centre of the last base above the threshold
     double peak;   ///< maximum mean, in the unit of the values
     double peak_at_m;
 };
 
-/// Detects localised roughness in a sequence of values.
-class RoughPlaces {
+/// Finds localised roughness in a sequence of values.
+class RoughIntervalFinder {
 public:
-    explicit RoughPlaces(double threshold) : threshold_{threshold} {}
+    explicit RoughIntervalFinder(double threshold) : threshold_{threshold} {}
 
-    /// \param at_m  increasing. \returns the rough place that ended before at_m, if any.
-    std::optional<RoughPlace> push(double at_m, double value);
+    /// \param at_m  increasing. \returns the rough interval that ended before at_m, if any.
+    std::optional<RoughInterval> push(double at_m, double value);
 
-    /// Returns the rough place that lasts until the end, if any.
-    std::optional<RoughPlace> finish();
+    /// Returns the rough interval that lasts until the end, if any.
+    std::optional<RoughInterval> finish();
 
 private:
     double threshold_;
-    std::optional<RoughPlace> place_;
+    std::optional<RoughInterval> interval_;
 };
 
 } // namespace macadam

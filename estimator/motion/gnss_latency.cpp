@@ -2,7 +2,7 @@
 
 #include "estimator/common/angle.hpp"
 #include "estimator/common/statistics.hpp"
-#include "estimator/motion/gnss_chord.hpp"
+#include "estimator/motion/gnss_track.hpp"
 #include "estimator/motion/turn_latency.hpp"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
 #include "estimator/motion/gnss_track.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/motion/outlier_gate.hpp"
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -48,7 +50,7 @@ std::vector<std::size_t> candidates(const TripLog& trip, GnssTrack& track) {
     return kept;
 }
 
-Place place_of(const GnssFix& fix, double latency_s) {
+GnssPosition place_of(const GnssFix& fix, double latency_s) {
     const auto accuracy_m = static_cast<double>(fix.accuracy_m);
     return {.t_s = fix.t_s - latency_s,
             .at = fix.at,
@@ -56,8 +58,10 @@ Place place_of(const GnssFix& fix, double latency_s) {
             .restarts = false};
 }
 
-double
-farthest_m(const Place& a, const Place& b, const OdometerConfig& config, const Odometer* odometer) {
+double farthest_m(const GnssPosition& a,
+                  const GnssPosition& b,
+                  const OdometerConfig& config,
+                  const Odometer* odometer) {
     const double slack_m = position_noise_m + a.accuracy_m + b.accuracy_m;
     if (odometer != nullptr && a.t_s >= odometer->start_s() && b.t_s <= odometer->end_s()) {
         return odometer_slack * (odometer->travel_m(b.t_s) - odometer->travel_m(a.t_s)) + slack_m;
@@ -75,10 +79,10 @@ struct Leg {
 
 class LegMaker {
 public:
-    LegMaker(const Place& first, double max_gap_s)
+    LegMaker(const GnssPosition& first, double max_gap_s)
         : max_gap_s_{max_gap_s}, anchor_{first}, last_{first} {}
 
-    void go_to(const Place& place) {
+    void go_to(const GnssPosition& place) {
         seen_ = seen_ && !place.restarts && place.t_s - last_.t_s <= max_gap_s_;
         const double moved_m = distance_m(anchor_.at, place.at);
         if (place.restarts || moved_m > min_move_m + (anchor_.accuracy_m + place.accuracy_m) / 2) {
@@ -102,7 +106,7 @@ private:
         return distance_m(anchor_.at, last_.at) < standing_mps * (last_.t_s - anchor_.t_s);
     }
 
-    void leave_for(const Place& place, double moved_m) {
+    void leave_for(const GnssPosition& place, double moved_m) {
         const bool stood = moved_m < standing_mps * (place.t_s - anchor_.t_s);
         if (stood && last_.t_s > anchor_.t_s) {
             legs_.push_back({anchor_.t_s, last_.t_s, 0, seen_});
@@ -115,8 +119,8 @@ private:
     }
 
     double max_gap_s_;
-    Place anchor_;
-    Place last_;
+    GnssPosition anchor_;
+    GnssPosition last_;
     bool seen_ = true;
     std::vector<Leg> legs_;
 };
@@ -153,7 +157,7 @@ Odometer::Knots knots_of(const std::vector<Leg>& legs) {
 GnssTrack track_of(const TripLog& trip, const OdometerConfig& config, const Odometer* farthest) {
     GnssTrack track{.places = {}, .use = std::vector<std::uint8_t>(trip.fixes.size(), 0)};
     const auto kept = candidates(trip, track);
-    std::vector<Place> places;
+    std::vector<GnssPosition> places;
     places.reserve(kept.size());
     for (const auto i : kept) {
         places.push_back(place_of(trip.fixes[i], trip.meta.gnss_latency_s));
@@ -186,6 +190,25 @@ std::optional<Odometer> odometer_of(const GnssTrack& track, const OdometerConfig
         maker.go_to(track.places[i]);
     }
     return Odometer{knots_of(maker.finish())};
+}
+
+std::vector<GnssChord>
+gnss_chords(const TripLog& trip, double min_length_m, double max_duration_s) {
+    std::vector<GnssChord> chords;
+    const GnssFix* from = nullptr;
+    for (const auto& fix : trip.fixes) {
+        if (from == nullptr || fix.t_s - from->t_s > max_duration_s) {
+            from = &fix;
+            continue;
+        }
+        const double length_m = distance_m(from->at, fix.at);
+        if (length_m >= min_length_m) {
+            chords.push_back(
+                {from->t_s, fix.t_s, length_m, -course_deg(from->at, fix.at) * rad_per_deg});
+            from = &fix;
+        }
+    }
+    return chords;
 }
 
 } // namespace macadam

@@ -10,7 +10,7 @@
 namespace macadam {
 
 /// Position that is consistent with its neighbours, at its own time: the latency is removed.
-struct Place {
+struct GnssPosition {
     double t_s;
     GeoPoint at;
     double accuracy_m;
@@ -19,7 +19,7 @@ struct Place {
 
 /// Accepted positions of a trip.
 struct GnssTrack {
-    std::vector<Place> places;
+    std::vector<GnssPosition> places;
     SampleUse use; ///< of the fixes
 };
 
@@ -33,5 +33,17 @@ GnssTrack track_of(const TripLog& trip, const OdometerConfig& config, const Odom
 /// apart, so that standing still adds no distance. `std::nullopt` if there are fewer than two
 /// positions.
 std::optional<Odometer> odometer_of(const GnssTrack& track, const OdometerConfig& config);
+
+/// Chord between two fixes, long enough that its course is known in spite of their noise.
+struct GnssChord {
+    double from_s; ///< time stamps of the fixes
+    double to_s;
+    double length_m;
+    double course_rad; ///< positive to the left
+};
+
+/// Returns chords from fix to fix, each as short as possible. Fixes more than `max_duration_s`
+/// apart are not joined.
+std::vector<GnssChord> gnss_chords(const TripLog& trip, double min_length_m, double max_duration_s);
 
 } // namespace macadam

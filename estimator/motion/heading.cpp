@@ -1,7 +1,7 @@
 #include "estimator/motion/heading.hpp"
 
 #include "estimator/common/angle.hpp"
-#include "estimator/motion/gnss_chord.hpp"
+#include "estimator/motion/gnss_track.hpp"
 #include "estimator/motion/mounting.hpp"
 
 #include <algorithm>

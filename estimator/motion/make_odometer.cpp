@@ -193,7 +193,7 @@ filled(const std::vector<Reading>& main, const std::vector<Reading>& other, doub
 std::vector<Reading> without_pauses(std::vector<Reading> readings, const GnssTrack& track) {
     const auto& places = track.places;
     std::erase_if(readings, [&](const Reading& reading) {
-        const auto next = std::ranges::upper_bound(places, reading.t_s, {}, &Place::t_s);
+        const auto next = std::ranges::upper_bound(places, reading.t_s, {}, &GnssPosition::t_s);
         return next != places.begin() && next != places.end() && next->restarts &&
                std::prev(next)->t_s < reading.t_s;
     });

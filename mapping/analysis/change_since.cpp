@@ -14,7 +14,7 @@ namespace {
 
 constexpr double um_per_mm = 1000;
 
-struct Place {
+struct SegmentPair {
     std::size_t before;
     std::size_t after;
 };
@@ -22,10 +22,10 @@ struct Place {
 /// Returns the segments known on both sides and reports the length known on one side only to
 /// `alone`.
 template <typename Alone>
-std::vector<Place> common_places(std::span<const SegmentRecord> before,
-                                 std::span<const SegmentRecord> since,
-                                 const Alone& alone) {
-    std::vector<Place> places;
+std::vector<SegmentPair> common_places(std::span<const SegmentRecord> before,
+                                       std::span<const SegmentRecord> since,
+                                       const Alone& alone) {
+    std::vector<SegmentPair> places;
     std::size_t i = 0, k = 0;
     while (i < before.size() || k < since.size()) {
         const bool first = k == since.size() ||

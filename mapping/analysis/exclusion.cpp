@@ -23,7 +23,7 @@ bool overlap(const GeoBox& a, const GeoBox& b) {
            b.south_deg <= a.north_deg;
 }
 
-struct PlacedExclusion {
+struct BoxedExclusion {
     const Exclusion* exclusion;
     GeoBox box; ///< enlarged by the radius
 };
@@ -33,14 +33,14 @@ void add_excluded(std::vector<RouteMeasureRange>& ranges,
                   const RoadNetwork& roads,
                   const RouteEdge& part,
                   double start_m,
-                  std::span<const PlacedExclusion> near) {
+                  std::span<const BoxedExclusion> near) {
     const double whole_m = part.to_m - part.from_m;
     const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(whole_m / step_m)));
     for (std::size_t i = 0; i < steps; ++i) {
         const double from_m = whole_m * static_cast<double>(i) / static_cast<double>(steps);
         const double to_m = whole_m * static_cast<double>(i + 1) / static_cast<double>(steps);
         const auto place = place_on(roads, *part.edge, part.from_m + (from_m + to_m) / 2);
-        const bool excluded = std::ranges::any_of(near, [&](const PlacedExclusion& placed) {
+        const bool excluded = std::ranges::any_of(near, [&](const BoxedExclusion& placed) {
             return contains(placed.box, place) &&
                    foot_on(placed.exclusion->line, place).distance_m <= placed.exclusion->radius_m;
         });
@@ -60,7 +60,7 @@ void add_excluded(std::vector<RouteMeasureRange>& ranges,
 std::vector<RouteMeasureRange> excluded_ranges(const RoadNetwork& roads,
                                                const LinearRoute& road,
                                                std::span<const Exclusion> exclusions) {
-    std::vector<PlacedExclusion> placed;
+    std::vector<BoxedExclusion> placed;
     for (const auto& exclusion : exclusions) {
         placed.push_back({&exclusion, grown(box_of(exclusion.line), exclusion.radius_m)});
     }
@@ -69,7 +69,7 @@ std::vector<RouteMeasureRange> excluded_ranges(const RoadNetwork& roads,
     for (const auto& part : road.parts) {
         if (part.edge) {
             const auto box = box_of(line_on(roads, *part.edge, part.from_m, part.to_m));
-            std::vector<PlacedExclusion> near;
+            std::vector<BoxedExclusion> near;
             std::ranges::copy_if(placed, std::back_inserter(near), [&](const auto& exclusion) {
                 return overlap(exclusion.box, box);
             });

@@ -103,12 +103,12 @@ std::vector<LineStep> steps_in(const RoadNetwork& roads,
 }
 
 /// A sample in the plane with its courses: through it, up to it and from it.
-struct PlacedSample {
+struct ProjectedSample {
     PointEn at;
     std::array<Vector, 3> courses;
 };
 
-PlacedSample placed(const RoadSample& sample, const SmallPlane& plane) {
+ProjectedSample placed(const RoadSample& sample, const SmallPlane& plane) {
     const auto behind = plane(sample.behind);
     const auto at = plane(sample.at);
     const auto ahead = plane(sample.ahead);
@@ -126,7 +126,7 @@ struct Runs {
     bool backward;
 };
 
-Runs runs_of(const PlacedSample& sample, const LineStep& step, double min_cosine) {
+Runs runs_of(const ProjectedSample& sample, const LineStep& step, double min_cosine) {
     const Vector back{-step.step.east_m, -step.step.north_m};
     Runs runs{false, false};
     for (const auto& course : sample.courses) {
@@ -137,15 +137,15 @@ Runs runs_of(const PlacedSample& sample, const LineStep& step, double min_cosine
 }
 
 /// Compares courses by chords, for bends with few points in one of the networks.
-Runs runs_around(const PlacedSample& sample, const Vector& chord, double min_cosine) {
+Runs runs_around(const ProjectedSample& sample, const Vector& chord, double min_cosine) {
     const auto& course = sample.courses[0];
     return {run_alike(course, chord, min_cosine),
             run_alike(course, {-chord.east_m, -chord.north_m}, min_cosine)};
 }
 
 /// Adds a position, keeping only the nearest per edge.
-void take(std::vector<NearPlaceOnEdge>& places, const NearPlaceOnEdge& place) {
-    const auto same = std::ranges::find(places, place.edge, &NearPlaceOnEdge::edge);
+void take(std::vector<EdgeCandidate>& places, const EdgeCandidate& place) {
+    const auto same = std::ranges::find(places, place.edge, &EdgeCandidate::edge);
     if (same == places.end()) {
         places.push_back(place);
     } else if (place.across_m < same->across_m) {
@@ -167,8 +167,8 @@ Foot foot_on(const LineStep& step, const PointEn& at) {
                        to_sample.north_m - share * step.step.north_m)};
 }
 
-std::vector<NearPlaceOnEdge> nearest_first(std::vector<NearPlaceOnEdge> places) {
-    std::ranges::sort(places, {}, [](const NearPlaceOnEdge& place) {
+std::vector<EdgeCandidate> nearest_first(std::vector<EdgeCandidate> places) {
+    std::ranges::sort(places, {}, [](const EdgeCandidate& place) {
         return std::tuple{place.across_m, place.edge};
     });
     places.resize(std::min(places.size(), max_places));
@@ -192,16 +192,16 @@ CandidateEdges::CandidateEdges(const RoadNetwork& roads,
     : roads_{&roads}, left_out_{&left_out}, config_{config},
       min_cosine_{std::cos(config.max_turned_deg * rad_per_deg)} {}
 
-std::vector<std::vector<NearPlaceOnEdge>>
+std::vector<std::vector<EdgeCandidate>>
 CandidateEdges::around(std::span<const RoadSample> samples) const {
     const SmallPlane plane{samples.front().at};
     const auto steps =
         steps_in(*roads_, *left_out_, box_around(samples, config_.farthest_m), plane);
-    std::vector<std::vector<NearPlaceOnEdge>> around;
+    std::vector<std::vector<EdgeCandidate>> around;
     around.reserve(samples.size());
     for (const auto& each : samples) {
         const auto sample = placed(each, plane);
-        std::vector<NearPlaceOnEdge> places;
+        std::vector<EdgeCandidate> places;
         for (const auto& step : steps) {
             const auto foot = foot_on(step, sample.at);
             if (!(foot.across_m <= config_.farthest_m)) {

@@ -19,7 +19,7 @@ struct RoadSample {
 };
 
 /// A candidate position of a sample in the other network.
-struct NearPlaceOnEdge {
+struct EdgeCandidate {
     EdgeId edge;
     double offset_m; ///< along the edge, in its direction
     double across_m; ///< distance from the sample
@@ -42,7 +42,7 @@ public:
 
     /// Returns for each sample the drivable edges within reach that run along its course, each with
     /// its nearest position; nearest first, at most eight.
-    std::vector<std::vector<NearPlaceOnEdge>> around(std::span<const RoadSample> samples) const;
+    std::vector<std::vector<EdgeCandidate>> around(std::span<const RoadSample> samples) const;
 
 private:
     const RoadNetwork* roads_;

@@ -40,18 +40,18 @@ Link link_with(const RoadNetwork& roads, const WayView& way, std::uint32_t index
     return link_at(roads, LinkId{first});
 }
 
-struct PlacedSegment {
+struct MeasuredSegment {
     SegmentKey key;
     WayMeasureRange whole_m;
 };
 
 /// Returns the segments of a way that overlap a range of stations, in driving direction.
-std::vector<PlacedSegment> segments_in(const RoadNetwork& roads,
-                                       const WayView& way,
-                                       bool forward,
-                                       const WayMeasureRange& range) {
+std::vector<MeasuredSegment> segments_in(const RoadNetwork& roads,
+                                         const WayView& way,
+                                         bool forward,
+                                         const WayMeasureRange& range) {
     const auto along = stations(forward, range.from_m, range.to_m);
-    std::vector<PlacedSegment> segments;
+    std::vector<MeasuredSegment> segments;
     for (auto i = way.first_link; i < way.past_link; ++i) {
         const auto link = link_at(roads, LinkId{i});
         if (link.to_m <= along.from_m || link.from_m >= along.to_m) {

@@ -118,7 +118,7 @@ namespace {
 /// Extends a run to a position, adding the positions at a change of edge.
 void go_on(WalkRun& run,
            const RoadNetwork& roads,
-           const WalkPlace& to,
+           const WayMatchPoint& to,
            const std::optional<EdgeId>& between) {
     const auto from = run.back();
     const double rest_m = length_m(roads, from.edge) - from.along_m;
@@ -157,7 +157,7 @@ WayMatching WayLattice::likeliest() const {
         if (path[i] + 1 == column.nodes.size()) {
             continue; // the state "gone"
         }
-        const WalkPlace place{
+        const WayMatchPoint place{
             column.offset_m, node.state.edge, node.state.offset_m, node.state.is_node};
         if (!node.is_walked || i == 0) {
             walk.runs.push_back({place});

@@ -52,7 +52,7 @@ double cost_of_words(const WayView& before, const WayView& after) {
 /// many roads meet. At a junction, a different kind of junction, or none, adds a cost.
 WalkState at_node(const RoadNetwork& after,
                   const std::vector<std::uint32_t>& met,
-                  const NearPlaceOnEdge& place,
+                  const EdgeCandidate& place,
                   std::uint32_t roads_met) {
     constexpr std::uint32_t least_of_junction = 3;
     const bool is_junction = roads_met >= least_of_junction;

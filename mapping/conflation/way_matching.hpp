@@ -9,7 +9,7 @@
 namespace macadam {
 
 /// A position on a way in one direction, and on the edge it is matched to.
-struct WalkPlace {
+struct WayMatchPoint {
     double offset_m; ///< from the start of the way in that direction; ascending within a run
     EdgeId edge;
     double along_m;       ///< along the edge, in its direction
@@ -18,7 +18,7 @@ struct WalkPlace {
 
 /// An unbroken run along both networks. Each change of edge occurs twice, at the ends of both
 /// edges.
-using WalkRun = std::vector<WalkPlace>;
+using WalkRun = std::vector<WayMatchPoint>;
 
 struct WayMatching {
     double cost = 0; ///< -log likelihood, up to a constant

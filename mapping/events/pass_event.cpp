@@ -13,27 +13,27 @@ constexpr double max_length_m = 1000;
 constexpr double min_place_sd_m = 0.1; // the grid of the profile is 0.25 m
 
 /// Interval of travel that a pass covers on its segment.
-struct DrivenPart {
+struct PassOverlap {
     const SegmentOverlap* overlap;
     const Pass* pass;
 
     double from_travel_m() const { return overlap->travel.from_m; }
 };
 
-std::vector<DrivenPart> parts_of(std::span<const DrivenPass> passes) {
-    std::vector<DrivenPart> parts;
+std::vector<PassOverlap> parts_of(std::span<const DrivenPass> passes) {
+    std::vector<PassOverlap> parts;
     for (const auto& driven : passes) {
         for (const auto& overlap : driven.parts) {
             parts.push_back({&overlap, &driven.pass});
         }
     }
-    std::ranges::stable_sort(parts, {}, &DrivenPart::from_travel_m);
+    std::ranges::stable_sort(parts, {}, &PassOverlap::from_travel_m);
     return parts;
 }
 
 /// Finds the part with this travel; null if there is none.
-const DrivenPart* part_at(std::span<const DrivenPart> parts, double travel_m) {
-    const auto past = std::ranges::upper_bound(parts, travel_m, {}, &DrivenPart::from_travel_m);
+const PassOverlap* part_at(std::span<const PassOverlap> parts, double travel_m) {
+    const auto past = std::ranges::upper_bound(parts, travel_m, {}, &PassOverlap::from_travel_m);
     if (past == parts.begin() || !(travel_m < (past - 1)->overlap->travel.to_m)) {
         return nullptr;
     }
@@ -56,7 +56,7 @@ std::int32_t whole(double value) {
     return static_cast<std::int32_t>(std::lround(value));
 }
 
-PassEvent placed(const RoadEvent& event, const DrivenPart& part) {
+PassEvent placed(const RoadEvent& event, const PassOverlap& part) {
     const double at_m = std::abs(station_m(*part.overlap, event.travel_m));
     return {.segment = part.pass->segment,
             .occurrence = part.pass->occurrence,

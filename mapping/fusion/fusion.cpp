@@ -58,18 +58,18 @@ double true_um(const FusionInput& input, double read_um) {
 /// Sorts passes by car, period, trip and occurrence; cars by their first trip, so that vehicle
 /// numbers do not affect any sum.
 std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
-    struct Place {
+    struct CarPass {
         std::size_t first; ///< first pass of the car
         std::int64_t vehicle;
         std::uint32_t period;
         std::size_t pass;
     };
-    std::vector<Place> places;
+    std::vector<CarPass> places;
     places.reserve(passes.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
         places.push_back({i, passes[i].vehicle, passes[i].period, i});
     }
-    std::ranges::sort(places, {}, [](const Place& place) {
+    std::ranges::sort(places, {}, [](const CarPass& place) {
         return std::pair{place.vehicle, place.pass};
     });
     for (std::size_t i = 1; i < places.size(); ++i) {
@@ -77,7 +77,7 @@ std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
             places[i].first = places[i - 1].first;
         }
     }
-    std::ranges::sort(places, {}, [](const Place& place) {
+    std::ranges::sort(places, {}, [](const CarPass& place) {
         return std::tuple{place.first, place.period, place.pass};
     });
     std::vector<const FusionInput*> sorted;

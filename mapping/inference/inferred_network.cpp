@@ -52,7 +52,7 @@ public:
     InferredNetwork take() { return std::move(drawing_); }
 
 private:
-    using Place = std::optional<TraceVertex>;
+    using MaybeVertex = std::optional<TraceVertex>;
 
     /// Finds for each point of the line its position on a drawn way or, after a delay, on the line
     /// itself.
@@ -103,16 +103,17 @@ private:
     }
 
     /// Returns the position of the vertex in the drawing, or none if it was omitted.
-    Place place_of(const TraceVertex& vertex) const {
+    MaybeVertex place_of(const TraceVertex& vertex) const {
         return vertex.way == own_line ? own_place_[vertex.point] : vertex;
     }
 
-    Place nearest(const PointEn& at) const {
+    MaybeVertex nearest(const PointEn& at) const {
         const auto found = index_.nearest(at, config_.joins_m);
-        return found ? Place{found->at} : std::nullopt;
+        return found ? MaybeVertex{found->at} : std::nullopt;
     }
 
-    void add_way(std::size_t first, std::size_t end, const Place& from, const Place& to) {
+    void
+    add_way(std::size_t first, std::size_t end, const MaybeVertex& from, const MaybeVertex& to) {
         const auto ends = static_cast<std::size_t>(from.has_value()) + to.has_value();
         if (end - first + ends < 2 ||
             static_cast<double>(end - first) * config_.spacing_m < config_.min_way_m) {
@@ -145,7 +146,7 @@ private:
     TraceIndex index_;
     const TraceLine* line_ = nullptr; ///< line being drawn
     TraceIndex own_index_;
-    std::vector<Place> own_place_; ///< position of each of its points in the drawing
+    std::vector<MaybeVertex> own_place_; ///< position of each of its points in the drawing
 };
 
 } // namespace

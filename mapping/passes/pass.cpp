@@ -16,7 +16,7 @@ constexpr double thousandths = 1e3;
 constexpr double largest_um = 1e9; // far above any road
 
 /// One pass over one segment, as matched.
-struct Passage {
+struct Traversal {
     SegmentKey segment;
     double segment_m;                   ///< length of the segment
     std::vector<TravelSpan> travel;     ///< disjoint
@@ -28,40 +28,40 @@ struct Passage {
     std::vector<SegmentOverlap> parts;
 };
 
-bool goes_on(const Passage& passage, const SegmentOverlap& part) {
-    return passage.segment == part.segment &&
-           part.travel.from_m - passage.travel.back().to_m < passage.segment_m;
+bool goes_on(const Traversal& traversal, const SegmentOverlap& part) {
+    return traversal.segment == part.segment &&
+           part.travel.from_m - traversal.travel.back().to_m < traversal.segment_m;
 }
 
-Passage longer_by(Passage passage, const SegmentOverlap& part) {
-    if (!passage.travel.empty() && passage.travel.back().to_m == part.travel.from_m) {
-        passage.travel.back().to_m = part.travel.to_m;
+Traversal longer_by(Traversal traversal, const SegmentOverlap& part) {
+    if (!traversal.travel.empty() && traversal.travel.back().to_m == part.travel.from_m) {
+        traversal.travel.back().to_m = part.travel.to_m;
     } else {
-        passage.travel.push_back(part.travel);
+        traversal.travel.push_back(part.travel);
     }
     const double length_m = part.to_station_m - part.from_station_m;
-    passage.offset_m += length_m;
-    passage.confident_m += length_m * part.confidence;
-    passage.t_leave_s = part.t_leave_s;
-    passage.parts.push_back(part);
-    return passage;
+    traversal.offset_m += length_m;
+    traversal.confident_m += length_m * part.confidence;
+    traversal.t_leave_s = part.t_leave_s;
+    traversal.parts.push_back(part);
+    return traversal;
 }
 
-std::vector<Passage> passages_of(std::span<const SegmentOverlap> parts) {
-    std::vector<Passage> passages;
+std::vector<Traversal> traversals_of(std::span<const SegmentOverlap> parts) {
+    std::vector<Traversal> traversals;
     for (const auto& part : parts) {
-        if (passages.empty() || !goes_on(passages.back(), part)) {
-            passages.push_back({.segment = part.segment,
-                                .segment_m = part.segment_m,
-                                .travel = {},
-                                .drive = part.drive,
-                                .t_enter_s = part.t_enter_s,
-                                .t_leave_s = part.t_leave_s,
-                                .parts = {}});
+        if (traversals.empty() || !goes_on(traversals.back(), part)) {
+            traversals.push_back({.segment = part.segment,
+                                  .segment_m = part.segment_m,
+                                  .travel = {},
+                                  .drive = part.drive,
+                                  .t_enter_s = part.t_enter_s,
+                                  .t_leave_s = part.t_leave_s,
+                                  .parts = {}});
         }
-        passages.back() = longer_by(std::move(passages.back()), part);
+        traversals.back() = longer_by(std::move(traversals.back()), part);
     }
-    return passages;
+    return traversals;
 }
 
 using Known = std::optional<double>;
@@ -84,9 +84,9 @@ Known sum_of(const Known& sum, const Known& value, double weight) {
     return sum && value ? Known{*sum + weight * *value} : std::nullopt;
 }
 
-Reading read(const Passage& passage, const IriTrace& roughness, const Vehicle& vehicle) {
+Reading read(const Traversal& traversal, const IriTrace& roughness, const Vehicle& vehicle) {
     Reading reading;
-    for (const auto& range : passage.travel) {
+    for (const auto& range : traversal.travel) {
         const auto mean = mean_over(roughness, range.from_m, range.to_m, vehicle);
         const auto headline = headline_of(mean);
         const double w = mean.covered_m;
@@ -114,9 +114,9 @@ std::optional<IriUm> whole_um(const Known& sum, double weights) {
     return sum ? std::optional{whole_um(*sum / weights)} : std::nullopt;
 }
 
-double driven_m(const Passage& passage) {
+double driven_m(const Traversal& traversal) {
     double sum_m = 0;
-    for (const auto& range : passage.travel) {
+    for (const auto& range : traversal.travel) {
         sum_m += range.to_m - range.from_m;
     }
     return sum_m;
@@ -130,10 +130,10 @@ std::uint8_t validity_of(const Reading& reading) {
     return static_cast<std::uint8_t>(flags);
 }
 
-Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
-    const double confidence = passage.confident_m / passage.offset_m;
+Pass quantised(const Traversal& traversal, const Reading& r, double covered_m) {
+    const double confidence = traversal.confident_m / traversal.offset_m;
     return {
-        .segment = passage.segment,
+        .segment = traversal.segment,
         .occurrence = 0,
         .iri_left_um = whole_um(r.left, r.covered_m),
         .iri_right_um = whole_um(r.right, r.covered_m),
@@ -146,27 +146,27 @@ Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
         .covered_mm = static_cast<std::int32_t>(std::lround(covered_m * thousandths)),
         .confidence_ppm =
             static_cast<std::int32_t>(std::lround(std::clamp(confidence, 0.0, 1.0) * millionths)),
-        .t_ms = std::llround((passage.t_enter_s + passage.t_leave_s) / 2 * thousandths),
-        .drive = passage.drive};
+        .t_ms = std::llround((traversal.t_enter_s + traversal.t_leave_s) / 2 * thousandths),
+        .drive = traversal.drive};
 }
 
-std::optional<Pass> pass_of(const Passage& passage,
+std::optional<Pass> pass_of(const Traversal& traversal,
                             const IriTrace& roughness,
                             const Vehicle& vehicle,
                             const PassConfig& config) {
-    if (passage.confident_m < config.min_confidence * passage.offset_m) {
+    if (traversal.confident_m < config.min_confidence * traversal.offset_m) {
         return std::nullopt;
     }
-    const auto reading = read(passage, roughness, vehicle);
+    const auto reading = read(traversal, roughness, vehicle);
     // Metres of travel represent metres of road; a match that stepped back covers none twice.
     const double covered_m =
-        std::min(passage.segment_m, reading.covered_m * passage.offset_m / driven_m(passage));
+        std::min(traversal.segment_m, reading.covered_m * traversal.offset_m / driven_m(traversal));
     const bool is_read = reading.iri / reading.covered_m * thousandths < largest_um &&
                          reading.sd / reading.covered_m * thousandths < largest_um;
-    if (!is_read || covered_m < config.min_cover * passage.segment_m) {
+    if (!is_read || covered_m < config.min_cover * traversal.segment_m) {
         return std::nullopt;
     }
-    return quantised(passage, reading, covered_m);
+    return quantised(traversal, reading, covered_m);
 }
 
 } // namespace
@@ -193,10 +193,10 @@ std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
                                       const PassConfig& config) {
     std::vector<DrivenPass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
-    for (auto& passage : passages_of(parts)) {
-        if (auto pass = pass_of(passage, roughness, vehicle, config)) {
+    for (auto& traversal : traversals_of(parts)) {
+        if (auto pass = pass_of(traversal, roughness, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;
-            passes.push_back({*pass, std::move(passage.parts)});
+            passes.push_back({*pass, std::move(traversal.parts)});
         }
     }
     return passes;

@@ -18,35 +18,36 @@ constexpr double fix_error_m = 10;    // combined error of an end's and a fix's 
 constexpr std::size_t fixes_away = 3; // in a row: ignores a single jump
 
 /// A position of the trip with its travel.
-struct Place {
+struct TravelPoint {
     double travel_m;
     double t_s;
     GeoPoint at;
 };
 
 /// Returns the positions in the order of travel.
-std::vector<Place> places_of(const TripLog& trip, const Odometer& odometer) {
-    std::vector<Place> places;
+std::vector<TravelPoint> places_of(const TripLog& trip, const Odometer& odometer) {
+    std::vector<TravelPoint> places;
     for (const auto& fix : trip.fixes) {
         if (std::isfinite(fix.at.lat_deg) && std::isfinite(fix.at.lon_deg)) {
             const double t_s = fix.t_s - trip.meta.gnss_latency_s;
             places.push_back({odometer.travel_m(t_s), t_s, fix.at});
         }
     }
-    std::ranges::stable_sort(places, {}, &Place::travel_m);
+    std::ranges::stable_sort(places, {}, &TravelPoint::travel_m);
     return places;
 }
 
 /// Returns the car's position: the consensus of the fixes there, or the nearest one. \param places
 /// not empty.
-GeoPoint place_at(const std::vector<Place>& places, double travel_m) {
+GeoPoint place_at(const std::vector<TravelPoint>& places, double travel_m) {
     const auto first =
-        std::ranges::lower_bound(places, travel_m - same_place_m, {}, &Place::travel_m);
+        std::ranges::lower_bound(places, travel_m - same_place_m, {}, &TravelPoint::travel_m);
     const auto past =
-        std::ranges::upper_bound(places, travel_m + same_place_m, {}, &Place::travel_m);
+        std::ranges::upper_bound(places, travel_m + same_place_m, {}, &TravelPoint::travel_m);
     if (first == past) {
-        const auto nearest = std::ranges::min_element(
-            places, {}, [&](const Place& place) { return std::abs(place.travel_m - travel_m); });
+        const auto nearest = std::ranges::min_element(places, {}, [&](const TravelPoint& place) {
+            return std::abs(place.travel_m - travel_m);
+        });
         return nearest->at;
     }
     std::vector<double> lat_deg;
@@ -77,8 +78,8 @@ void add_stops_of_ruler(const Odometer::Knots& knots, std::vector<TravelSpan>& s
 }
 
 /// Adds intervals in which fixes stayed in one position while travel advanced, or were missing.
-void add_stops_of_fixes(std::vector<Place> places, std::vector<TravelSpan>& stops) {
-    std::ranges::stable_sort(places, {}, &Place::t_s);
+void add_stops_of_fixes(std::vector<TravelPoint> places, std::vector<TravelSpan>& stops) {
+    std::ranges::stable_sort(places, {}, &TravelPoint::t_s);
     for (std::size_t anchor = 0; anchor < places.size();) {
         std::size_t past = anchor + 1;
         while (past < places.size() && distance_m(places[anchor].at, places[past].at) < still_m) {
@@ -131,9 +132,9 @@ travel_away(Iterator place, Iterator past, const GeoPoint& hidden, double away_m
     return std::nullopt;
 }
 
-class HiddenPlaces {
+class HiddenPositions {
 public:
-    HiddenPlaces(const TripLog& trip, const Odometer& odometer, const TrimRule& rule)
+    HiddenPositions(const TripLog& trip, const Odometer& odometer, const TrimRule& rule)
         : trip_{&trip}, rule_{&rule}, places_{places_of(trip, odometer)}, whole_m_{
                                                                               odometer.whole_m()} {}
 
@@ -145,7 +146,7 @@ public:
         if (!rule_->hides_places || places_.empty()) {
             return by_travel_m;
         }
-        const auto from = std::ranges::lower_bound(places_, hidden_m, {}, &Place::travel_m);
+        const auto from = std::ranges::lower_bound(places_, hidden_m, {}, &TravelPoint::travel_m);
         const auto away_m =
             travel_away(from, places_.end(), place_at(places_, hidden_m), length_m + fix_error_m);
         return away_m ? std::max(by_travel_m, *away_m) : whole_m_;
@@ -157,7 +158,7 @@ public:
         if (!rule_->hides_places || places_.empty()) {
             return by_travel_m;
         }
-        const auto from = std::ranges::upper_bound(places_, hidden_m, {}, &Place::travel_m);
+        const auto from = std::ranges::upper_bound(places_, hidden_m, {}, &TravelPoint::travel_m);
         const auto away_m = travel_away(std::make_reverse_iterator(from),
                                         places_.rend(),
                                         place_at(places_, hidden_m),
@@ -173,7 +174,7 @@ private:
 
     const TripLog* trip_;
     const TrimRule* rule_;
-    std::vector<Place> places_;
+    std::vector<TravelPoint> places_;
     double whole_m_;
 };
 
@@ -200,7 +201,7 @@ kept_parts(const TripLog& trip, const Odometer& odometer, const TrimRule& rule) 
     }
     hidden.push_back({odometer.whole_m(), odometer.whole_m()});
 
-    const HiddenPlaces places{trip, odometer, rule};
+    const HiddenPositions places{trip, odometer, rule};
     std::vector<TravelSpan> parts;
     for (std::size_t i = 1; i < hidden.size(); ++i) {
         const TravelSpan part{places.end_after(hidden[i - 1].to_m, 2 * i),

@@ -276,7 +276,7 @@ DrivenPath driven_path(const RoadNetwork& roads,
     return path;
 }
 
-PathPlace place_at(const DrivenPath& path, double travel_m) {
+DrivenPose place_at(const DrivenPath& path, double travel_m) {
     const auto after = std::ranges::upper_bound(path.travel_m, travel_m) - path.travel_m.begin();
     const auto last = static_cast<std::ptrdiff_t>(path.travel_m.size()) - 1;
     const auto b = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, last));

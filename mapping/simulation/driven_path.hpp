@@ -37,10 +37,10 @@ DrivenPath driven_path(const RoadNetwork& roads,
 
 /// Position and direction (east, north; unit vector) of the car at a travelled distance, clamped to
 /// the path.
-struct PathPlace {
+struct DrivenPose {
     PointEn at;
     PointEn heading;
 };
-PathPlace place_at(const DrivenPath& path, double travel_m);
+DrivenPose place_at(const DrivenPath& path, double travel_m);
 
 } // namespace macadam

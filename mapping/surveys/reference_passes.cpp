@@ -28,9 +28,9 @@ bool overlaps(const ReferencePart& a, const ReferencePart& b) {
 }
 
 /// Disjoint parts of one pass over a segment.
-using Passage = std::vector<Part>;
+using CoveringParts = std::vector<Part>;
 
-void add_to_first_free(std::vector<Passage>& passages, const Part& part) {
+void add_to_first_free(std::vector<CoveringParts>& passages, const Part& part) {
     for (auto& passage : passages) {
         if (std::ranges::none_of(
                 passage, [&](const Part& other) { return overlaps(*other.part, *part.part); })) {
@@ -41,7 +41,7 @@ void add_to_first_free(std::vector<Passage>& passages, const Part& part) {
     passages.push_back({part});
 }
 
-double covered_m(const Passage& passage) {
+double covered_m(const CoveringParts& passage) {
     double sum_m = 0;
     for (const auto& part : passage) {
         sum_m += length_m(*part.part);
@@ -51,7 +51,7 @@ double covered_m(const Passage& passage) {
 
 /// Computes the length-weighted mean of the parts' rows; `std::nullopt` if a row lacks the value.
 template <typename Value>
-std::optional<double> mean_of(const Passage& passage, const Value& value) {
+std::optional<double> mean_of(const CoveringParts& passage, const Value& value) {
     double sum = 0, whole_m = 0;
     for (const auto& part : passage) {
         const std::optional<double> one = value(part);
@@ -65,7 +65,7 @@ std::optional<double> mean_of(const Passage& passage, const Value& value) {
 }
 
 /// Returns the share of the road's scatter within rows that remains in the mean of these parts.
-double scatter_share(const Passage& passage) {
+double scatter_share(const CoveringParts& passage) {
     const double whole_m = covered_m(passage);
     double share = 1 - whole_m / passage.front().part->segment_m;
     for (const auto& part : passage) {
@@ -76,7 +76,7 @@ double scatter_share(const Passage& passage) {
     return share;
 }
 
-double relative_sd(const Passage& passage, const ReferenceConfig& config) {
+double relative_sd(const CoveringParts& passage, const ReferenceConfig& config) {
     const bool from_hri =
         std::ranges::any_of(passage, [](const Part& part) { return part.iri.from_hri; });
     return std::hypot(config.relative_sd,
@@ -92,7 +92,9 @@ std::optional<IriUm> known_um(const std::optional<double>& mm_per_m) {
     return mm_per_m ? std::optional{whole_um(*mm_per_m)} : std::nullopt;
 }
 
-Pass pass_of(const Passage& passage, std::uint32_t occurrence, const ReferenceConfig& config) {
+Pass pass_of(const CoveringParts& passage,
+             std::uint32_t occurrence,
+             const ReferenceConfig& config) {
     const auto side = [&](std::optional<double> SurveyRow::*iri) {
         return known_um(mean_of(passage, [&](const Part& part) { return part.row->*iri; }));
     };
@@ -126,10 +128,10 @@ std::string_view fault_of(const SurveyRow& row) {
 } // namespace
 
 ReferencePasses reference_passes(const ReferenceSurvey& survey,
-                                 const PlacedReference& placed,
+                                 const LocatedReference& placed,
                                  const ReferenceConfig& config) {
     ReferencePasses all;
-    std::map<SegmentKey, std::vector<Passage>> segments;
+    std::map<SegmentKey, std::vector<CoveringParts>> segments;
     std::vector<std::string_view> reasons = placed.unplaced;
     std::map<std::size_t, double> lengths_m;
     for (const auto& part : placed.parts) {

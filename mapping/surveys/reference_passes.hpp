@@ -44,10 +44,10 @@ struct ReferencePasses {
 ///     s = sum (o/C)^2 (1 - o/r) + 1 - C/S.
 /// An MRI inferred from HRI has the additional uncertainty sd_hri_over_mri.
 ///
-/// Reasons in addition to those of PlacedReference: no_iri, one_track (a left or right IRI alone is
-/// no MRI), unsure_match, short_part (less than half of every segment was covered).
+/// Reasons in addition to those of LocatedReference: no_iri, one_track (a left or right IRI alone
+/// is no MRI), unsure_match, short_part (less than half of every segment was covered).
 ReferencePasses reference_passes(const ReferenceSurvey& survey,
-                                 const PlacedReference& placed,
+                                 const LocatedReference& placed,
                                  const ReferenceConfig& config);
 
 } // namespace macadam

@@ -21,14 +21,14 @@ struct WayPart {
 };
 
 /// Location method of the rows of a reference survey.
-enum class ReferencePlaces : std::uint8_t {
+enum class ReferenceLocation : std::uint8_t {
     on_ways, ///< interval of a way
     ends,    ///< start and end coordinates
     middles  ///< midpoint coordinates, with a heading or in driving order
 };
 
 /// A survey row to be imported into a database. Whether `way`, `begin`, `end` and `heading` are set
-/// depends on ReferencePlaces; a row without a position has none of them.
+/// depends on ReferenceLocation; a row without a position has none of them.
 struct ReferenceRow {
     SurveyRow values; ///< `at` and `length_m` for midpoints
     bool placed = true;
@@ -40,7 +40,7 @@ struct ReferenceRow {
 };
 
 struct ReferenceSurvey {
-    ReferencePlaces places;
+    ReferenceLocation places;
     std::vector<ReferenceRow> rows;
     std::string sha256; ///< of the file's decompressed text
 };

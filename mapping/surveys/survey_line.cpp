@@ -137,7 +137,7 @@ SurveyLines survey_lines(std::span<const SurveyRow> survey, const LocalFrame& fr
     return lines;
 }
 
-PlaceOnLeg nearest_on(const SurveyLeg& leg, const PointEn& point) {
+LegPosition nearest_on(const SurveyLeg& leg, const PointEn& point) {
     const double east_m = leg.end.east_m - leg.begin.east_m;
     const double north_m = leg.end.north_m - leg.begin.north_m;
     const double length_m = std::hypot(east_m, north_m);

@@ -41,12 +41,12 @@ struct SurveyLines {
 SurveyLines survey_lines(std::span<const SurveyRow> survey, const LocalFrame& frame);
 
 /// The point of a leg nearest to a position.
-struct PlaceOnLeg {
+struct LegPosition {
     std::size_t line;
     double station_m;
     double distance_m;
 };
-PlaceOnLeg nearest_on(const SurveyLeg& leg, const PointEn& point);
+LegPosition nearest_on(const SurveyLeg& leg, const PointEn& point);
 
 /// A grid index of legs.
 class SurveyLegIndex {

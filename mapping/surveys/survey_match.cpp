@@ -26,13 +26,13 @@ struct Sample {
 /// A sample matched to the survey.
 struct Met {
     double travel_m;
-    PlaceOnLeg place;
+    LegPosition place;
 };
 
 /// The trip as one polyline in a plane, without the gaps between its positions.
 class TripLine {
 public:
-    TripLine(std::span<const TripPlaceAt> trip, const LocalFrame& frame) {
+    TripLine(std::span<const TravelPosition> trip, const LocalFrame& frame) {
         for (const auto& place : trip) {
             at_.push_back(frame.to_local(place.at));
             travel_m_.push_back(place.travel_m);
@@ -89,7 +89,7 @@ bool runs_alike(const PointEn& a, const PointEn& b, double max_angle_deg) {
     return std::acos(std::clamp(cosine, -1.0, 1.0)) <= max_angle_deg * rad_per_deg;
 }
 
-bool goes_on(const Met& before, double travel_m, const PlaceOnLeg& place, double max_distance_m) {
+bool goes_on(const Met& before, double travel_m, const LegPosition& place, double max_distance_m) {
     const double apart_m = place.station_m - before.place.station_m - (travel_m - before.travel_m);
     return place.line == before.place.line &&
            std::abs(apart_m) <= 2 * max_distance_m + (travel_m - before.travel_m) / 4;
@@ -97,19 +97,19 @@ bool goes_on(const Met& before, double travel_m, const PlaceOnLeg& place, double
 
 /// Returns true beyond the ends of a line, where the nearest point is its end but not where the
 /// trip was.
-bool is_end(const PlaceOnLeg& place, const SurveyLine& line) {
+bool is_end(const LegPosition& place, const SurveyLine& line) {
     return place.station_m <= line.pieces.front().from_m ||
            place.station_m >= line.pieces.back().to_m;
 }
 
 /// Finds the nearest point within the limits; of two about equally near, the one that continues the
 /// line.
-std::optional<PlaceOnLeg> place_of(const Sample& sample,
-                                   const std::optional<Met>& before,
-                                   const SurveyLines& lines,
-                                   const SurveyLegIndex& index,
-                                   const SurveyMatchConfig& config) {
-    std::optional<PlaceOnLeg> best;
+std::optional<LegPosition> place_of(const Sample& sample,
+                                    const std::optional<Met>& before,
+                                    const SurveyLines& lines,
+                                    const SurveyLegIndex& index,
+                                    const SurveyMatchConfig& config) {
+    std::optional<LegPosition> best;
     double least = 0;
     for (const std::size_t leg : index.near(sample.at)) {
         const auto place = nearest_on(lines.legs[leg], sample.at);
@@ -242,7 +242,7 @@ passes_of(std::span<const Met> run, const SurveyLine& line, double average_m) {
 } // namespace
 
 std::vector<SurveyPass> match_survey(std::span<const SurveyRow> survey,
-                                     std::span<const TripPlaceAt> trip,
+                                     std::span<const TravelPosition> trip,
                                      const SurveyMatchConfig& config) {
     if (survey.empty() || trip.size() < 2) {
         return {};

@@ -17,7 +17,7 @@ struct SurveyMatchConfig {
 };
 
 /// Position of a trip at a travelled distance.
-struct TripPlaceAt {
+struct TravelPosition {
     GeoPoint at;
     double travel_m; ///< strictly increasing
 };
@@ -44,7 +44,7 @@ struct SurveyPass {
 ///
 /// Source: section IV-A of the paper ("GNSS Matching").
 std::vector<SurveyPass> match_survey(std::span<const SurveyRow> survey,
-                                     std::span<const TripPlaceAt> trip,
+                                     std::span<const TravelPosition> trip,
                                      const SurveyMatchConfig& config);
 
 } // namespace macadam

@@ -50,7 +50,7 @@ std::vector<ReferencePart> parts_on(const Link& link, const WayPart& part, std::
 void place_on_way(const RoadNetwork& roads,
                   const WayPart& part,
                   std::size_t row,
-                  PlacedReference& placed) {
+                  LocatedReference& placed) {
     const auto way = find_way(roads, part.way_id);
     placed.unplaced[row] = way ? "beyond_way" : "no_such_way";
     for (auto i = way ? way->first_link : 0; way && i < way->past_link; ++i) {
@@ -239,7 +239,7 @@ std::optional<ReferencePart> shared(const SurveyPiece& piece, const LinePart& pa
                          .confidence = part.confidence};
 }
 
-void place_line(const RoadNetwork& roads, const DrivenLine& line, PlacedReference& placed) {
+void place_line(const RoadNetwork& roads, const DrivenLine& line, LocatedReference& placed) {
     const auto matched = line_parts(roads, line.line);
     for (const auto& piece : line.pieces) {
         placed.unplaced[piece.row] = "off_network";
@@ -254,16 +254,16 @@ void place_line(const RoadNetwork& roads, const DrivenLine& line, PlacedReferenc
 
 } // namespace
 
-PlacedReference placed_on(const RoadNetwork& roads, const ReferenceSurvey& survey) {
-    const bool sticks = survey.places == ReferencePlaces::ends ||
+LocatedReference placed_on(const RoadNetwork& roads, const ReferenceSurvey& survey) {
+    const bool sticks = survey.places == ReferenceLocation::ends ||
                         std::ranges::any_of(survey.rows, [](const ReferenceRow& row) {
                             return row.heading_deg.has_value();
                         });
-    PlacedReference placed;
+    LocatedReference placed;
     for (const auto& row : survey.rows) {
         placed.unplaced.emplace_back(row.placed ? "no_neighbour" : "no_place");
     }
-    if (survey.places == ReferencePlaces::on_ways) {
+    if (survey.places == ReferenceLocation::on_ways) {
         for (std::size_t row = 0; row < survey.rows.size(); ++row) {
             if (const auto& way = survey.rows[row].way) {
                 place_on_way(roads, *way, row, placed);

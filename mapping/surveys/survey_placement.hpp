@@ -21,7 +21,7 @@ struct ReferencePart {
 };
 
 /// Location of rows on a network.
-struct PlacedReference {
+struct LocatedReference {
     std::vector<ReferencePart> parts;       ///< in the order of the rows
     std::vector<std::string_view> unplaced; ///< per row: why it has no part; "" if it has one
 };
@@ -34,6 +34,6 @@ struct PlacedReference {
 ///
 /// Reasons: no_place, no_such_way, beyond_way (past its end), not_drivable (against a oneway),
 /// off_network (no road drivable in that direction).
-PlacedReference placed_on(const RoadNetwork& roads, const ReferenceSurvey& survey);
+LocatedReference placed_on(const RoadNetwork& roads, const ReferenceSurvey& survey);
 
 } // namespace macadam

@@ -137,10 +137,10 @@ std::pair<std::int64_t, std::int64_t> place_of(const PixelPoint& point) {
     return {std::llround(point.x * 16), std::llround(point.y * 16)};
 }
 
-using Places = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Arm>>;
+using ArmsByPoint = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Arm>>;
 
-Places places_of(std::span<const NamedPart> parts) {
-    Places places;
+ArmsByPoint places_of(std::span<const NamedPart> parts) {
+    ArmsByPoint places;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto& line = parts[i].line;
         places[place_of(line.front())].push_back({i, false, unit_step(line.front(), line[1])});

@@ -98,11 +98,11 @@ double base_line_px(const TextLook& look,
                                     : -away_px - capitals * look.size_px;
 }
 
-std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
-                                               const SetLine& line,
-                                               double middle_px,
-                                               bool forward,
-                                               const LabelConfig& config) {
+std::optional<std::vector<ClusterPose>> set_along(const LabelPath& base,
+                                                  const SetLine& line,
+                                                  double middle_px,
+                                                  bool forward,
+                                                  const LabelConfig& config) {
     const double from_px = middle_px - line.width_px / 2;
     const double to_px = middle_px + line.width_px / 2;
     if (from_px < 0 || to_px > base.length_px()) {
@@ -115,7 +115,7 @@ std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
     }
     const double least_whole = cosine_of_deg(config.max_turn_deg);
     const double least_next = cosine_of_deg(config.max_bend_deg);
-    std::vector<SetPlace> places;
+    std::vector<ClusterPose> places;
     places.reserve(line.clusters.size());
     for (const auto& cluster : line.clusters) {
         const auto a = reading.at(cluster.left_px);
@@ -135,7 +135,7 @@ std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
     return places;
 }
 
-std::vector<PixelPoint> corners_of(const SetPlace& place, const TextLook& look) {
+std::vector<PixelPoint> corners_of(const ClusterPose& place, const TextLook& look) {
     const PixelPoint up{place.along.y * look.size_px, -place.along.x * look.size_px};
     const PixelPoint to{place.from.x + place.along.x * place.width_px,
                         place.from.y + place.along.y * place.width_px};

@@ -20,7 +20,7 @@ private:
 };
 
 /// Position of a label's cluster.
-struct SetPlace {
+struct ClusterPose {
     PixelPoint from;  ///< left end of its baseline
     PixelPoint along; ///< direction of its baseline, of length 1
     double width_px;
@@ -48,13 +48,13 @@ LabelPath base_line(const LabelPath& road, double left_px, double smooth_px);
 ///
 /// \param middle_px  middle of the label, along the baseline
 /// \param forward    read in the direction of the baseline
-std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
-                                               const SetLine& line,
-                                               double middle_px,
-                                               bool forward,
-                                               const LabelConfig& config);
+std::optional<std::vector<ClusterPose>> set_along(const LabelPath& base,
+                                                  const SetLine& line,
+                                                  double middle_px,
+                                                  bool forward,
+                                                  const LabelConfig& config);
 
 /// Returns the corners of a cluster's letters, from its descenders to the top of its capitals.
-std::vector<PixelPoint> corners_of(const SetPlace& place, const TextLook& look);
+std::vector<PixelPoint> corners_of(const ClusterPose& place, const TextLook& look);
 
 } // namespace macadam

@@ -36,7 +36,7 @@ struct BaseLine {
 
 /// Candidate position of a label.
 struct Candidate {
-    std::vector<SetPlace> places;
+    std::vector<ClusterPose> places;
     std::vector<PixelBox> boxes; ///< of its clusters, with halo
     PixelBox box;                ///< union of boxes
     PixelPoint middle;

@@ -87,19 +87,15 @@ std::string title_of(const MapStyle& style) {
     return style.in_per_mi ? "Roughness, IRI in in/mi" : "Roughness, IRI in mm/m";
 }
 
-struct Place {
-    double x, y;
-};
-
 void draw_swatch(DrawTarget& canvas,
                  const LegendEntry& entry,
-                 const Place& middle,
+                 const PixelPoint& middle,
                  double unit,
                  const Palette& colours) {
     const double half_px = (swatch_px - core_px) / 2 * unit;
     if (entry.swatch == LegendEntry::Swatch::event) {
         const MapEvent symbol{{}, entry.event, Severity::moderate};
-        draw_event(canvas, symbol, {middle.x, middle.y}, unit, colours);
+        draw_event(canvas, symbol, middle, unit, colours);
         return;
     }
     const PixelPoint from{middle.x - half_px, middle.y};

@@ -209,7 +209,7 @@ seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) 
 
 } // namespace
 
-std::vector<StrokeQuad> ribbon(const Polyline& polyline, const StrokePass& pass) {
+std::vector<StrokeQuad> stroke_polyline(const Polyline& polyline, const StrokePass& pass) {
     std::vector<StrokeQuad> quads;
     add_ribbon(quads, polyline, pass);
     return quads;

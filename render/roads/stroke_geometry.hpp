@@ -61,7 +61,7 @@ struct StrokePass {
 ///
 /// The visible box and the corner select quads and shift them by whole pixels, exactly: a part of a
 /// picture is painted as in the whole picture.
-std::vector<StrokeQuad> ribbon(const Polyline& polyline, const StrokePass& pass);
+std::vector<StrokeQuad> stroke_polyline(const Polyline& polyline, const StrokePass& pass);
 
 /// Appends the quads of a polyline to others.
 void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& polyline, const StrokePass& pass);

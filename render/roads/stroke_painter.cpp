@@ -53,9 +53,10 @@ void main() {
 }
 )";
 
-// Coverage is the part of a one pixel wide window across the line that lies on the ribbon, which is
-// also right for lines thinner than a pixel. Values are not interpolated: the pixel's position
-// relative to the anchor is exact, so the result does not depend on their position in the window.
+// Coverage is the part of a one pixel wide window across the line that lies on the stroke_polyline,
+// which is also right for lines thinner than a pixel. Values are not interpolated: the pixel's
+// position relative to the anchor is exact, so the result does not depend on their position in the
+// window.
 constexpr const char* fragment_shader = R"(#version 330 core
 uniform vec3 colour;
 uniform float radius_px;

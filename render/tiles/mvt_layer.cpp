@@ -114,20 +114,20 @@ VectorLayer::VectorLayer(std::string_view name,
 
 // ------------------------------------------------------------------------------------- geometry
 
-VectorLayer::Place VectorLayer::place_of(const WorldPoint& point) const {
+VectorLayer::TilePoint VectorLayer::place_of(const WorldPoint& point) const {
     const std::int64_t half = shift_ > 0 ? std::int64_t{1} << (shift_ - 1) : 0;
     return {static_cast<std::int32_t>((std::int64_t{point.x} - west_ + half) >> shift_),
             static_cast<std::int32_t>((std::int64_t{point.y} - north_ + half) >> shift_)};
 }
 
-void VectorLayer::move_to(const Place& place) {
+void VectorLayer::move_to(const TilePoint& place) {
     geometry_.push_back(command(move_command, 1));
     geometry_.push_back(zigzag(place.x - cursor_.x));
     geometry_.push_back(zigzag(place.y - cursor_.y));
     cursor_ = place;
 }
 
-void VectorLayer::line_to(const Place& place) {
+void VectorLayer::line_to(const TilePoint& place) {
     geometry_.push_back(zigzag(place.x - cursor_.x));
     geometry_.push_back(zigzag(place.y - cursor_.y));
     cursor_ = place;
@@ -137,19 +137,19 @@ void VectorLayer::end_piece() {
     if (piece_.size() > 1) {
         move_to(piece_.front());
         geometry_.push_back(command(line_command, piece_.size() - 1));
-        std::for_each(piece_.begin() + 1, piece_.end(), [&](const Place& p) { line_to(p); });
+        std::for_each(piece_.begin() + 1, piece_.end(), [&](const TilePoint& p) { line_to(p); });
     }
     piece_.clear();
 }
 
-bool VectorLayer::lies_within(const Place& place) {
+bool VectorLayer::lies_within(const TilePoint& place) {
     constexpr auto is_within = [](std::int32_t at) {
         return at >= -tile_buffer && at <= tile_extent + tile_buffer;
     };
     return is_within(place.x) && is_within(place.y);
 }
 
-void VectorLayer::put_clipped(const Place& from, const Place& to) {
+void VectorLayer::put_clipped(const TilePoint& from, const TilePoint& to) {
     if (lies_within(from) && lies_within(to)) { // the usual case
         go_on(from, to);
         return;
@@ -162,13 +162,13 @@ void VectorLayer::put_clipped(const Place& from, const Place& to) {
         return;
     }
     const auto at = [&](double share) {
-        return Place{static_cast<std::int32_t>(std::lround(from.x + share * dx)),
-                     static_cast<std::int32_t>(std::lround(from.y + share * dy))};
+        return TilePoint{static_cast<std::int32_t>(std::lround(from.x + share * dx)),
+                         static_cast<std::int32_t>(std::lround(from.y + share * dy))};
     };
     go_on(at(part.from), at(part.to));
 }
 
-void VectorLayer::go_on(const Place& begin, const Place& end) {
+void VectorLayer::go_on(const TilePoint& begin, const TilePoint& end) {
     if (piece_.empty() || piece_.back() != begin) {
         end_piece();
         piece_.push_back(begin);
@@ -178,7 +178,7 @@ void VectorLayer::go_on(const Place& begin, const Place& end) {
     }
 }
 
-void VectorLayer::put_line(std::span<const Place> line) {
+void VectorLayer::put_line(std::span<const TilePoint> line) {
     for (std::size_t i = 1; i < line.size(); ++i) {
         put_clipped(line[i - 1], line[i]);
     }

@@ -60,18 +60,18 @@ private:
         std::uint32_t number; ///< value number plus 1; 0 is free
         std::uint32_t hash;   ///< bits not implied by the position of the slot
     };
-    struct Place {
+    struct TilePoint {
         std::int32_t x, y;
-        friend bool operator==(const Place&, const Place&) = default;
+        friend bool operator==(const TilePoint&, const TilePoint&) = default;
     };
 
-    Place place_of(const WorldPoint& point) const;
-    void put_line(std::span<const Place> line);
-    static bool lies_within(const Place& place);
-    void put_clipped(const Place& from, const Place& to);
-    void go_on(const Place& begin, const Place& end);
-    void move_to(const Place& place);
-    void line_to(const Place& place);
+    TilePoint place_of(const WorldPoint& point) const;
+    void put_line(std::span<const TilePoint> line);
+    static bool lies_within(const TilePoint& place);
+    void put_clipped(const TilePoint& from, const TilePoint& to);
+    void go_on(const TilePoint& begin, const TilePoint& end);
+    void move_to(const TilePoint& place);
+    void line_to(const TilePoint& place);
     void end_piece();
 
     bool repeat_last(std::uint32_t key, Value::Kind kind, std::uint64_t bits);
@@ -94,8 +94,8 @@ private:
     std::vector<std::uint32_t> geometry_; ///< of the current feature
     std::vector<char> tags_;    ///< of the current feature, encoded, with room for every key once
     std::size_t tag_bytes_ = 0; ///< used bytes of tags_
-    std::vector<Place> line_, piece_;
-    Place cursor_{0, 0};
+    std::vector<TilePoint> line_, piece_;
+    TilePoint cursor_{0, 0};
     std::size_t count_ = 0;
 };
 

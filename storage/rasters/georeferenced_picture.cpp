@@ -35,7 +35,7 @@ GiveBytes all_of(std::string text) {
 }
 
 /// World file: six lines, for the centre of the first pixel.
-std::string world_text(const PlacedPicture& picture) {
+std::string world_text(const PictureFrame& picture) {
     return fmt::format("{}\n0\n0\n{}\n{}\n{}\n",
                        picture.per_px,
                        -picture.per_px,
@@ -44,7 +44,7 @@ std::string world_text(const PlacedPicture& picture) {
 }
 
 /// GDAL's Persistent Auxiliary Metadata, from which QGIS also reads the coordinate system.
-std::string auxiliary_text(const PlacedPicture& picture) {
+std::string auxiliary_text(const PictureFrame& picture) {
     return fmt::format("<PAMDataset>\n  <SRS dataAxisToSRSAxisMapping=\"1,2\">{}</SRS>\n"
                        "</PAMDataset>\n",
                        xml_text(picture.wkt));
@@ -52,7 +52,7 @@ std::string auxiliary_text(const PlacedPicture& picture) {
 
 } // namespace
 
-void write_geotiff(const PlacedPicture& picture,
+void write_geotiff(const PictureFrame& picture,
                    const GiveRows& give,
                    const std::filesystem::path& file) {
     auto* const write = plugin_function<GeotiffWrite>("macadam_gdal.so", geotiff_write_name);
@@ -66,7 +66,7 @@ void write_geotiff(const PlacedPicture& picture,
 }
 
 void write_png_with_world_file(const GiveBytes& png,
-                               const PlacedPicture& picture,
+                               const PictureFrame& picture,
                                const std::filesystem::path& file) {
     AtomicFileSet files{file};
     const auto name = file.filename();

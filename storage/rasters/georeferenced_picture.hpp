@@ -10,7 +10,7 @@
 namespace macadam {
 
 /// Position of a picture in the plane of a coordinate reference system.
-struct PlacedPicture {
+struct PictureFrame {
     int width_px, height_px;
     double left, top;      ///< top left corner, in units of the plane
     double per_px;         ///< side of a pixel, in units of the plane
@@ -27,7 +27,7 @@ using GiveRows =
 /// not at all. Memory during the call is about three times the file size.
 ///
 /// \throws InputError  if the file cannot be written; exceptions of `give` pass through.
-void write_geotiff(const PlacedPicture& picture,
+void write_geotiff(const PictureFrame& picture,
                    const GiveRows& give,
                    const std::filesystem::path& file);
 
@@ -40,7 +40,7 @@ using GiveBytes = std::function<void(const std::function<void(std::string_view)>
 /// \param png  bytes of the PNG file.
 /// \throws InputError  if one of the files cannot be written.
 void write_png_with_world_file(const GiveBytes& png,
-                               const PlacedPicture& picture,
+                               const PictureFrame& picture,
                                const std::filesystem::path& file);
 
 /// Name of the world file of a picture: map.pgw for map.png.

@@ -27,7 +27,7 @@ namespace {
                                  gdal_error("unknown GDAL error"))};
 }
 
-void place(GDALDataset& dataset, const PlacedPicture& picture) {
+void place(GDALDataset& dataset, const PictureFrame& picture) {
     OGRSpatialReference system;
     if (system.importFromWkt(picture.wkt.c_str()) != OGRERR_NONE) {
         fail();
@@ -78,7 +78,7 @@ private:
 /// Writes the rows of a picture, from the top.
 class RowWriter {
 public:
-    RowWriter(const PlacedPicture& picture, const char* name) {
+    RowWriter(const PictureFrame& picture, const char* name) {
         CPLStringList options;
         options.SetNameValue("TILED", "YES");
         options.SetNameValue("BLOCKXSIZE", "512");
@@ -141,7 +141,7 @@ void copy_to_disk(std::span<const char> bytes, const std::filesystem::path& file
     }
 }
 
-void write(const PlacedPicture& picture, const GiveRows& give, const std::filesystem::path& file) {
+void write(const PictureFrame& picture, const GiveRows& give, const std::filesystem::path& file) {
     const GdalErrorScope quiet;
     const SmallCache cache;
     CPLErrorReset();
@@ -175,7 +175,7 @@ void write(const PlacedPicture& picture, const GiveRows& give, const std::filesy
 
 } // namespace macadam
 
-extern "C" void macadam_geotiff_write(const macadam::PlacedPicture& picture,
+extern "C" void macadam_geotiff_write(const macadam::PictureFrame& picture,
                                       const macadam::GiveRows& give,
                                       const std::filesystem::path& file) {
     macadam::write(picture, give, file);

@@ -88,9 +88,9 @@ PixelFootprint foot(const PixelPosition& at, const PixelStep& right, const Pixel
 
 /// Positions of a square of the picture: its corners, the midpoints of its sides, and its centre,
 /// row by row.
-using SquarePlaces = std::array<PixelPosition, 9>;
+using SquarePositions = std::array<PixelPosition, 9>;
 
-bool are_straight(const SquarePlaces& at) {
+bool are_straight(const SquarePositions& at) {
     const auto right = between(at[0], at[2], square_px);
     const auto down = between(at[0], at[6], square_px);
     const double tolerated_px = straight_px * std::max(right.length(), down.length());
@@ -120,7 +120,7 @@ std::vector<PixelPosition> grid_over(int width_px, int height_px) {
 /// Footprints of the pixels of a square, row by row.
 using SquareFeet = std::array<PixelFootprint, std::size_t{square_px} * square_px>;
 
-SquareFeet bilinear(const SquarePlaces& at) {
+SquareFeet bilinear(const SquarePositions& at) {
     const auto right = between(middle_of(at[0], at[6]), middle_of(at[2], at[8]), square_px);
     const auto down = between(middle_of(at[0], at[2]), middle_of(at[6], at[8]), square_px);
     SquareFeet feet{};
@@ -316,7 +316,7 @@ std::vector<PixelFootprint> RasterTransform::feet(const PicturePart& part) const
                                      {nowhere, nowhere, 0, 0});
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            SquarePlaces at{};
+            SquarePositions at{};
             for (std::size_t i = 0; i < at.size(); ++i) {
                 at[i] = places[(std::size_t(row) * 2 + i / 3) * across + std::size_t(column) * 2 +
                                i % 3];

@@ -22,15 +22,15 @@ bool has_all(const CsvTable& table, std::initializer_list<std::string_view> colu
     return std::ranges::all_of(columns, [&](std::string_view name) { return table.has(name); });
 }
 
-ReferencePlaces places_of(const CsvTable& table) {
+ReferenceLocation places_of(const CsvTable& table) {
     if (has_all(table, {"way_id", "from_m", "to_m"})) {
-        return ReferencePlaces::on_ways;
+        return ReferenceLocation::on_ways;
     }
     if (has_all(table, {"begin_lat_deg", "begin_lon_deg", "end_lat_deg", "end_lon_deg"})) {
-        return ReferencePlaces::ends;
+        return ReferenceLocation::ends;
     }
     if (has_all(table, {"lat_deg", "lon_deg"})) {
-        return ReferencePlaces::middles;
+        return ReferenceLocation::middles;
     }
     throw InputError{fmt::format(
         "{}: the header does not locate its rows, expected way_id, from_m and to_m; or "
@@ -122,8 +122,10 @@ ReferenceRow with_middle(const CsvRow& row, ReferenceRow found, bool headings) {
     return found;
 }
 
-ReferenceRow
-row_of(const CsvTable& table, std::size_t number, ReferencePlaces places, double mm_per_m_of_one) {
+ReferenceRow row_of(const CsvTable& table,
+                    std::size_t number,
+                    ReferenceLocation places,
+                    double mm_per_m_of_one) {
     const auto row = table.row(number);
     const auto iri = [&](std::string_view column) { return iri_in(row, column, mm_per_m_of_one); };
     ReferenceRow found;
@@ -133,13 +135,13 @@ row_of(const CsvTable& table, std::size_t number, ReferencePlaces places, double
     found.values.mri_mm_per_m = iri("mri");
     found.values.hri_mm_per_m = iri("hri");
     switch (places) {
-    case ReferencePlaces::on_ways:
+    case ReferenceLocation::on_ways:
         found.way = way_part(row);
         found.placed = found.way.has_value();
         return found;
-    case ReferencePlaces::ends:
+    case ReferenceLocation::ends:
         return with_ends(row, std::move(found));
-    case ReferencePlaces::middles:
+    case ReferenceLocation::middles:
         break;
     }
     return with_middle(row, std::move(found), table.has("heading_deg"));
@@ -151,7 +153,7 @@ ReferenceSurvey read_reference(const std::filesystem::path& file, double mm_per_
     const auto table = read_csv_table(file);
     ReferenceSurvey survey{.places = places_of(table), .rows = {}, .sha256 = table.sha256};
     expect_iri(table);
-    if (survey.places == ReferencePlaces::middles) {
+    if (survey.places == ReferenceLocation::middles) {
         expect_length(table);
     }
     for (std::size_t i = 0; i < table.rows.size(); ++i) {

@@ -127,7 +127,7 @@ Answer survey_csv(std::string_view input) {
     return may_refuse([&] {
         const auto survey = read_survey(input_file("survey.csv", input));
         expect(survey.size() >= 2, "a survey has two rows");
-        std::vector<TripPlaceAt> trip;
+        std::vector<TravelPosition> trip;
         for (const auto& row : survey) {
             trip.push_back({row.at, 20 * static_cast<double>(trip.size())});
         }
@@ -143,9 +143,9 @@ Answer reference_csv(std::string_view input) {
         const auto survey = read_reference(input_file("reference.csv", input));
         expect(!survey.rows.empty(), "a survey has a row");
         for (const auto& row : survey.rows) {
-            const bool has_place = survey.places == ReferencePlaces::on_ways ? row.way.has_value()
-                                   : survey.places == ReferencePlaces::ends  ? row.begin && row.end
-                                                                             : true;
+            const bool has_place = survey.places == ReferenceLocation::on_ways ? row.way.has_value()
+                                   : survey.places == ReferenceLocation::ends ? row.begin && row.end
+                                                                              : true;
             expect(!row.placed || has_place, "a row that is placed has its place");
         }
     });

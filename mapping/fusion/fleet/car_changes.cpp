@@ -29,7 +29,7 @@ double square(double x) {
 }
 
 /// Dated, calibrated reading at a place.
-struct PlacedReading {
+struct DatedReading {
     double days;
     std::uint32_t car; ///< whatever period of it
     std::uint32_t period;
@@ -43,10 +43,10 @@ double log_level(const FleetReading& reading, const std::optional<CarCalibration
     return std::log(std::max(0.1 * reading.read_um, reading.read_um - offset_um) / gain);
 }
 
-std::vector<PlacedReading> placed(std::span<const FleetReading> readings,
-                                  const FleetTrips& trips,
-                                  const FleetCalibration& calibration) {
-    std::vector<PlacedReading> dated;
+std::vector<DatedReading> placed(std::span<const FleetReading> readings,
+                                 const FleetTrips& trips,
+                                 const FleetCalibration& calibration) {
+    std::vector<DatedReading> dated;
     for (const auto& reading : readings) {
         const auto& utc_ms = trips.utc_ms[reading.trip];
         const bool is_known = calibration.cars[reading.car] || calibration.is_known[reading.car];
@@ -58,7 +58,7 @@ std::vector<PlacedReading> placed(std::span<const FleetReading> readings,
                              log_level(reading, calibration.cars[reading.car])});
         }
     }
-    std::ranges::sort(dated, {}, [](const PlacedReading& reading) {
+    std::ranges::sort(dated, {}, [](const DatedReading& reading) {
         return std::tuple{reading.days, reading.trip, reading.log_level};
     });
     return dated;
@@ -82,7 +82,7 @@ struct FadingSum {
 
 /// Adds to each reading the sums over the readings of other cars up to it.
 template <typename Order>
-void add_sums_of_others(std::span<const PlacedReading> readings,
+void add_sums_of_others(std::span<const DatedReading> readings,
                         const std::vector<std::uint32_t>& cars,
                         const Order& order,
                         std::vector<FadingSum>& of_others) {
@@ -101,7 +101,7 @@ void add_sums_of_others(std::span<const PlacedReading> readings,
     }
 }
 
-std::vector<FadingSum> sums_of_others(std::span<const PlacedReading> readings,
+std::vector<FadingSum> sums_of_others(std::span<const DatedReading> readings,
                                       const std::vector<std::uint32_t>& cars) {
     std::vector<FadingSum> sums(readings.size());
     std::vector<std::size_t> order(readings.size());

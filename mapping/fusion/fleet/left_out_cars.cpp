@@ -57,12 +57,12 @@ struct CarLevel {
 };
 
 /// A place with its calibrated readings.
-class Place {
+class SegmentReadings {
 public:
-    Place(std::span<const FleetReading> readings,
-          const FleetTrips& trips,
-          const FleetCalibration& fleet,
-          const FleetPrior& prior)
+    SegmentReadings(std::span<const FleetReading> readings,
+                    const FleetTrips& trips,
+                    const FleetCalibration& fleet,
+                    const FleetPrior& prior)
         : trips_{&trips}, fleet_{&fleet}, prior_{&prior} {
         std::ranges::copy_if(readings, std::back_inserter(readings_), [&](const auto& reading) {
             return fleet.cars[reading.car].has_value();
@@ -150,7 +150,8 @@ LeftOutReadings leave_cars_out(const std::vector<FleetReading>& readings,
         while (past < readings.size() && readings[past].place == readings[first].place) {
             ++past;
         }
-        const Place place{std::span{readings}.subspan(first, past - first), trips, fleet, prior};
+        const SegmentReadings place{
+            std::span{readings}.subspan(first, past - first), trips, fleet, prior};
         for (const auto& reading : place.readings()) {
             if (const auto level = place.level_without(reading)) {
                 const double expected_um =

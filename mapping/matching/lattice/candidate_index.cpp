@@ -33,7 +33,7 @@ OnStep nearest_on(const PointEn& a, const PointEn& b, const PointEn& at) {
     return {fraction, apart_m({a.east_m + fraction * east_m, a.north_m + fraction * north_m}, at)};
 }
 
-NearPlace
+NearestPoint
 place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on, const PointEn& at) {
     const double east_m = b.at.east_m - a.at.east_m;
     const double north_m = b.at.north_m - a.at.north_m;
@@ -47,7 +47,7 @@ place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on, 
 }
 
 /// Adds the points of minimum distance, separated by a rise of at least hairpin_m.
-void add_minima(std::vector<NearPlace>& places,
+void add_minima(std::vector<NearestPoint>& places,
                 LinkId link,
                 std::span<const LinePoint> line,
                 const PointEn& at,
@@ -112,7 +112,7 @@ std::span<const LinePoint> CandidateIndex::line(LinkId link) {
     return std::span{points_}.subspan(there.first, there.count);
 }
 
-NearPlace CandidateIndex::nearest(LinkId link, const PointEn& at) {
+NearestPoint CandidateIndex::nearest(LinkId link, const PointEn& at) {
     const auto points = line(link);
     OnStep best{0, std::numeric_limits<double>::infinity()};
     std::size_t best_step = 0;
@@ -140,10 +140,10 @@ void CandidateIndex::look_around(const PointEn& at, const GeoPoint& place, doubl
     }
 }
 
-std::vector<NearPlace>
+std::vector<NearestPoint>
 CandidateIndex::near(const PointEn& at, const GeoPoint& place, double radius_m) {
     look_around(at, place, radius_m);
-    std::vector<NearPlace> places;
+    std::vector<NearestPoint> places;
     for (const auto& [link, there] : nearby_) {
         if (at.east_m < there.low.east_m - radius_m || at.east_m > there.high.east_m + radius_m ||
             at.north_m < there.low.north_m - radius_m ||
@@ -153,7 +153,7 @@ CandidateIndex::near(const PointEn& at, const GeoPoint& place, double radius_m) 
         add_minima(
             places, link, std::span{points_}.subspan(there.first, there.count), at, radius_m);
     }
-    std::ranges::sort(places, [](const NearPlace& a, const NearPlace& b) {
+    std::ranges::sort(places, [](const NearestPoint& a, const NearestPoint& b) {
         return std::tie(a.distance_m, a.link, a.along_m) <
                std::tie(b.distance_m, b.link, b.along_m);
     });

@@ -17,7 +17,7 @@ struct LinePoint {
 };
 
 /// The point of a link nearest to a position.
-struct NearPlace {
+struct NearestPoint {
     LinkId link;
     double along_m;
     double distance_m;
@@ -36,10 +36,10 @@ public:
 
     /// Finds the points within `radius_m` of a position, nearest first. A link that approaches
     /// twice, as a hairpin does, yields two.
-    std::vector<NearPlace> near(const PointEn& at, const GeoPoint& place, double radius_m);
+    std::vector<NearestPoint> near(const PointEn& at, const GeoPoint& place, double radius_m);
 
     /// Finds the point of a link nearest to a position.
-    NearPlace nearest(LinkId link, const PointEn& at);
+    NearestPoint nearest(LinkId link, const PointEn& at);
 
 private:
     struct Drawn {

@@ -49,7 +49,7 @@ double course_nats(double angle_rad, double sd_rad) {
     return (1 - std::cos(angle_rad)) / (sd_rad * sd_rad);
 }
 
-double fit(const NearPlace& place,
+double fit(const NearestPoint& place,
            double right_m,
            double course_rad,
            const ObservationModel& evidence,
@@ -65,7 +65,7 @@ double fit(const NearPlace& place,
 
 void add_candidates(std::vector<State>& states,
                     const RoadNetwork& roads,
-                    const std::vector<NearPlace>& places,
+                    const std::vector<NearestPoint>& places,
                     const ObservationModel& evidence,
                     const RoadSpread& spread,
                     const MatchConfig& config) {

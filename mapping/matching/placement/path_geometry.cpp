@@ -220,7 +220,7 @@ SmoothedPath driven_line(const RoadPath& path, const RoadNetwork& roads, Candida
     return measured(std::move(line));
 }
 
-DrivenPlace place_at(const SmoothedPath& line, double driven_m) {
+PathPose place_at(const SmoothedPath& line, double driven_m) {
     const auto i = piece_at(line, driven_m);
     const auto [share, beyond_m] = share_of(line, i, driven_m);
     const double heading_rad = between(line.heading_rad[i], line.heading_rad[i + 1], share);

@@ -31,13 +31,13 @@ struct SmoothedPath {
 SmoothedPath driven_line(const RoadPath& path, const RoadNetwork& roads, CandidateIndex& plane);
 
 /// A position on the rounded line; extrapolated straight beyond its ends.
-struct DrivenPlace {
+struct PathPose {
     PointEn at;
     PointEn ahead; ///< unit vector
     LaneKind lane;
     std::array<double, 2> turned_rad;
 };
-DrivenPlace place_at(const SmoothedPath& line, double driven_m);
+PathPose place_at(const SmoothedPath& line, double driven_m);
 
 /// Converts a driven length to a position on the map's line; the inverse of driven_m_at.
 double along_m_at(const SmoothedPath& line, double driven_m);

@@ -68,7 +68,7 @@ struct Passed {
 template <int States>
 class Smoother {
 public:
-    Smoother(const SmoothedPath& line, const std::vector<Epoch>& epochs, const PlaceModel& model)
+    Smoother(const SmoothedPath& line, const std::vector<Epoch>& epochs, const PositionModel& model)
         : line_{line}, epochs_{epochs}, model_{model}, motions_{motions_of(epochs)},
           passed_(epochs.size()) {}
 
@@ -102,8 +102,7 @@ private:
         return {mean.template head<States>(), sd.template head<States>()};
     }
 
-    static Step
-    step_between(const Motion& motion, const DrivenPlace& here, const DrivenPlace& there) {
+    static Step step_between(const Motion& motion, const PathPose& here, const PathPose& there) {
         return {motion.gone_m,
                 here.turned_rad[0] - there.turned_rad[0],
                 here.turned_rad[1] - there.turned_rad[1],
@@ -158,7 +157,7 @@ private:
 
     std::array<Taken<States>, 2> take_fix(Forward<States>& belief,
                                           std::size_t k,
-                                          const DrivenPlace& place,
+                                          const PathPose& place,
                                           double nominal_m) const {
         const auto& epoch = epochs_[k];
         const PointEn ahead = place.ahead;
@@ -241,7 +240,7 @@ private:
 
     const SmoothedPath& line_;
     const std::vector<Epoch>& epochs_;
-    const PlaceModel& model_;
+    const PositionModel& model_;
     std::vector<Motion> motions_;
     std::vector<Passed<States>> passed_;
 };
@@ -251,7 +250,7 @@ private:
 std::vector<PathPosition> smoothed_places(const SmoothedPath& line,
                                           const std::vector<Epoch>& epochs,
                                           std::vector<double> nominal_m,
-                                          const PlaceModel& model) {
+                                          const PositionModel& model) {
     const bool gyro =
         std::ranges::any_of(epochs, [](const Epoch& epoch) { return epoch.gyro_rad.has_value(); });
     return gyro || model.latency_sd_s > 0

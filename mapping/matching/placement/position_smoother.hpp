@@ -26,7 +26,7 @@ struct PathPosition {
     double sd_m;
 };
 
-struct PlaceModel {
+struct PositionModel {
     double latency_sd_s;        ///< of the uncorrected receiver latency
     double scale_sd;            ///< of the travel
     double heading_half_m = 10; ///< Epoch::gyro_rad averages over this travel before and after
@@ -50,6 +50,6 @@ struct PlaceModel {
 std::vector<PathPosition> smoothed_places(const SmoothedPath& line,
                                           const std::vector<Epoch>& epochs,
                                           std::vector<double> nominal_m,
-                                          const PlaceModel& model);
+                                          const PositionModel& model);
 
 } // namespace macadam

@@ -48,9 +48,9 @@ std::vector<ChunkPass> ChunkPasses::of(std::int64_t chunk, std::int64_t segments
     return passes;
 }
 
-std::vector<ChunkPasses::Place> ChunkPasses::places_of(std::int64_t chunk,
-                                                       std::int64_t segments_per_chunk) {
-    std::vector<Place> places;
+std::vector<ChunkPasses::SegmentInterval> ChunkPasses::places_of(std::int64_t chunk,
+                                                                 std::int64_t segments_per_chunk) {
+    std::vector<SegmentInterval> places;
     for (select_places_.bind(chunk, segments_per_chunk); select_places_.step();) {
         const auto key = key_in(select_places_, 1);
         places.push_back({select_places_.integer(0),
@@ -63,7 +63,7 @@ std::vector<ChunkPasses::Place> ChunkPasses::places_of(std::int64_t chunk,
 }
 
 /// Pass in the current row; `std::nullopt` if its trip does not exist.
-std::optional<ChunkPass> ChunkPasses::pass_at(const Place& place) {
+std::optional<ChunkPass> ChunkPasses::pass_at(const SegmentInterval& place) {
     const auto* of = trip(select_passes_.integer(1));
     if (of == nullptr) {
         return std::nullopt;

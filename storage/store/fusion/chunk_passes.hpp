@@ -37,7 +37,7 @@ private:
         bool reference;
         bool by_filter;
     };
-    struct Place {
+    struct SegmentInterval {
         std::int64_t fid;
         SegmentKey key;
         double from_m;
@@ -45,8 +45,8 @@ private:
     };
 
     const Trip* trip(std::int64_t row);
-    std::vector<Place> places_of(std::int64_t chunk, std::int64_t segments_per_chunk);
-    std::optional<ChunkPass> pass_at(const Place& place);
+    std::vector<SegmentInterval> places_of(std::int64_t chunk, std::int64_t segments_per_chunk);
+    std::optional<ChunkPass> pass_at(const SegmentInterval& place);
 
     Statement select_trip_;
     Statement select_places_;

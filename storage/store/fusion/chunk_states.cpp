@@ -21,7 +21,7 @@ bool is_chosen(const PassChoice& choice, const FusionInput& input) {
 }
 
 /// Sets the lag of a pass from its aligned trace.
-void put_in_its_place(ChunkPass& pass, std::span<const PlacedTrace> traces) {
+void put_in_its_place(ChunkPass& pass, std::span<const AlignedTrace> traces) {
     auto& input = pass.input;
     const auto* placed = find_trace(traces, input.trip_sha256, input.pass.drive);
     if (placed != nullptr) {
@@ -46,7 +46,7 @@ void set_calibration(FusionInput& input, const CarRecord& car) {
 }
 
 std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
-                                std::span<const PlacedTrace> traces,
+                                std::span<const AlignedTrace> traces,
                                 const FusionConfig& config) {
     std::vector<FusedSegment> segments;
     std::vector<FusionInput> inputs;
@@ -121,7 +121,7 @@ void ChunkFusion::align_with_each_other(std::int64_t chunk, std::vector<ChunkPas
 FusedChunk ChunkFusion::of(std::int64_t chunk, std::int64_t segments_per_chunk) {
     const auto traces = traces_.placed(chunk);
     std::vector<LagLine> lags;
-    std::ranges::transform(traces, std::back_inserter(lags), &PlacedTrace::lag);
+    std::ranges::transform(traces, std::back_inserter(lags), &AlignedTrace::lag);
     return {summary_of(lags), fused(valid_passes(chunk, segments_per_chunk), traces, config_)};
 }
 

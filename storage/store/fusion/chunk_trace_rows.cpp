@@ -29,7 +29,7 @@ bool is_sound(const Statement& row) {
            first_m >= -max_station_m && first_m <= max_station_m && sd_mm > 0 && sd_mm <= max_sd_mm;
 }
 
-bool is_within_a_chunk(std::span<const PlacedTrace> traces) {
+bool is_within_a_chunk(std::span<const AlignedTrace> traces) {
     auto first_m = max_station_m;
     auto last_m = -max_station_m;
     for (const auto& [trip, trace, lag] : traces) {
@@ -39,9 +39,9 @@ bool is_within_a_chunk(std::span<const PlacedTrace> traces) {
     return last_m - first_m <= longest_chunk_m;
 }
 
-std::vector<PlacedTrace> aligned_with_each_other(std::vector<PlacedTrace> traces) {
+std::vector<AlignedTrace> aligned_with_each_other(std::vector<AlignedTrace> traces) {
     std::vector<RoughnessTrace> all;
-    std::ranges::transform(traces, std::back_inserter(all), &PlacedTrace::trace);
+    std::ranges::transform(traces, std::back_inserter(all), &AlignedTrace::trace);
     auto lags = lags_of(all, {});
     for (std::size_t i = 0; i < traces.size(); ++i) {
         traces[i].lag = std::move(lags[i]);
@@ -58,20 +58,20 @@ ChunkTraces::ChunkTraces(Database& database)
                                 " CROSS JOIN trip ON trip.id = trace.trip WHERE trace.strip = ?")} {
 }
 
-std::vector<PlacedTrace> ChunkTraces::placed(std::int64_t chunk) {
+std::vector<AlignedTrace> ChunkTraces::placed(std::int64_t chunk) {
     return aligned_with_each_other(unplaced(chunk));
 }
 
-std::vector<PlacedTrace> ChunkTraces::placed(std::int64_t chunk, const DriveSet& drives) {
+std::vector<AlignedTrace> ChunkTraces::placed(std::int64_t chunk, const DriveSet& drives) {
     auto traces = unplaced(chunk);
-    std::erase_if(traces, [&](const PlacedTrace& placed) {
+    std::erase_if(traces, [&](const AlignedTrace& placed) {
         return !drives.contains({placed.trip_sha256, placed.trace.drive});
     });
     return aligned_with_each_other(std::move(traces));
 }
 
-std::vector<PlacedTrace> ChunkTraces::unplaced(std::int64_t chunk) {
-    std::vector<PlacedTrace> traces;
+std::vector<AlignedTrace> ChunkTraces::unplaced(std::int64_t chunk) {
+    std::vector<AlignedTrace> traces;
     bool sound = true;
     for (select_.bind(chunk); sound && select_.step();) {
         sound = is_sound(select_);
@@ -91,20 +91,20 @@ std::vector<PlacedTrace> ChunkTraces::unplaced(std::int64_t chunk) {
                                      database_->file().string(),
                                      chunk)};
     }
-    std::ranges::sort(traces, {}, [](const PlacedTrace& placed) {
+    std::ranges::sort(traces, {}, [](const AlignedTrace& placed) {
         return std::pair<std::string_view, std::uint32_t>{placed.trip_sha256, placed.trace.drive};
     });
     return traces;
 }
 
-const PlacedTrace* find_trace(std::span<const PlacedTrace> traces,
-                              const std::string& trip_sha256,
-                              const std::optional<std::uint32_t>& drive) {
+const AlignedTrace* find_trace(std::span<const AlignedTrace> traces,
+                               const std::string& trip_sha256,
+                               const std::optional<std::uint32_t>& drive) {
     if (!drive) {
         return nullptr;
     }
     const std::pair<std::string_view, std::uint32_t> wanted{trip_sha256, *drive};
-    const auto key_of = [](const PlacedTrace& placed) {
+    const auto key_of = [](const AlignedTrace& placed) {
         return std::pair<std::string_view, std::uint32_t>{placed.trip_sha256, placed.trace.drive};
     };
     const auto found = std::ranges::lower_bound(traces, wanted, {}, key_of);

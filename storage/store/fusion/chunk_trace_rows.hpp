@@ -15,7 +15,7 @@
 namespace macadam {
 
 /// Trace of the database with its alignment within its chunk.
-struct PlacedTrace {
+struct AlignedTrace {
     std::string trip_sha256;
     RoughnessTrace trace;
     LagLine lag;
@@ -33,21 +33,21 @@ public:
     ///
     /// \param chunk  row of its first segment.
     /// \throws InputError  if a trace is invalid, because the database was modified.
-    std::vector<PlacedTrace> placed(std::int64_t chunk);
+    std::vector<AlignedTrace> placed(std::int64_t chunk);
 
     /// Aligned traces of these drives, as if there were no others.
-    std::vector<PlacedTrace> placed(std::int64_t chunk, const DriveSet& drives);
+    std::vector<AlignedTrace> placed(std::int64_t chunk, const DriveSet& drives);
 
 private:
-    std::vector<PlacedTrace> unplaced(std::int64_t chunk);
+    std::vector<AlignedTrace> unplaced(std::int64_t chunk);
 
     const Database* database_;
     Statement select_;
 };
 
 /// Trace of a drive; null if there is none.
-const PlacedTrace* find_trace(std::span<const PlacedTrace> traces,
-                              const std::string& trip_sha256,
-                              const std::optional<std::uint32_t>& drive);
+const AlignedTrace* find_trace(std::span<const AlignedTrace> traces,
+                               const std::string& trip_sha256,
+                               const std::optional<std::uint32_t>& drive);
 
 } // namespace macadam

@@ -140,11 +140,11 @@ void add(Readings& readings,
          const std::vector<ChunkPass>& passes,
          const Fleet& fleet,
          std::uint32_t& places) {
-    struct Placed {
+    struct WindowReading {
         std::int64_t fid, window;
         FleetReading reading;
     };
-    std::vector<Placed> placed;
+    std::vector<WindowReading> placed;
     for (const auto& [fid, input, from_m, to_m] : passes) {
         if ((input.pass.validity & unsure) != 0 || input.pass.iri_um <= 0) {
             continue;
@@ -168,7 +168,7 @@ void add(Readings& readings,
             ++readings.stated[car].second;
         }
     }
-    std::ranges::stable_sort(placed, [](const Placed& a, const Placed& b) {
+    std::ranges::stable_sort(placed, [](const WindowReading& a, const WindowReading& b) {
         return std::pair{a.fid, a.window} < std::pair{b.fid, b.window};
     });
     for (std::size_t i = 0; i < placed.size(); ++i) {

@@ -21,7 +21,7 @@ namespace {
 constexpr double mm_per_m = 1000;
 
 /// Segments of a filter on which an event may be, in the order of keys.
-using Places = std::map<SegmentKey, SegmentRecord>;
+using SegmentsByKey = std::map<SegmentKey, SegmentRecord>;
 
 /// Segments with events in a table.
 std::set<SegmentKey> segments_in(Database& database, const char* table) {
@@ -50,9 +50,9 @@ std::set<SegmentKey> with_neighbours(const std::set<SegmentKey>& keys) {
     return all;
 }
 
-Places
+SegmentsByKey
 places_of(const StoreReader& store, const SegmentFilter& filter, const std::set<SegmentKey>& keys) {
-    Places places;
+    SegmentsByKey places;
     if (keys.empty()) {
         return places;
     }
@@ -72,7 +72,7 @@ EventRecord record_of(FusedEvent event, const SegmentRecord& place) {
     return {std::move(event), at, place.name, place.highway};
 }
 
-std::vector<EventRecord> fused_events(const Places& places, WayEvents fusion) {
+std::vector<EventRecord> fused_events(const SegmentsByKey& places, WayEvents fusion) {
     std::vector<EventRecord> records;
     std::optional<std::pair<std::int64_t, bool>> last;
     for (const auto& [key, place] : places) {
@@ -89,7 +89,7 @@ std::vector<EventRecord> fused_events(const Places& places, WayEvents fusion) {
     return records;
 }
 
-std::vector<EventRecord> published_events(Database& database, const Places& places) {
+std::vector<EventRecord> published_events(Database& database, const SegmentsByKey& places) {
     auto select = database.prepare(
         fmt::format("SELECT way_id, direction, seq, {} FROM published_event AS event"
                     " CROSS JOIN segment ON segment.fid = event.segment"

@@ -39,7 +39,7 @@ std::vector<HistoricPass> StoreReader::history(const SegmentKey& key) const {
                     pass_columns));
     select.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
     std::vector<HistoricPass> passes;
-    std::optional<std::vector<PlacedTrace>> traces;
+    std::optional<std::vector<AlignedTrace>> traces;
     while (select.step()) {
         if (!traces) {
             traces = ChunkTraces{store_->database}.placed(select.integer(3));

@@ -13,9 +13,9 @@
 namespace macadam {
 namespace {
 
-using CarPlaces = std::map<std::string, std::size_t>; ///< index of each car in the order of cars
+using CarIndex = std::map<std::string, std::size_t>; ///< index of each car in the order of cars
 
-std::vector<VehicleUse> vehicles_in(Database& database, const CarPlaces& places) {
+std::vector<VehicleUse> vehicles_in(Database& database, const CarIndex& places) {
     auto select = database.prepare(
         "SELECT vehicle.pseudonym, vehicle_model, method, count(*), count(*) - count(t0_utc_ms),"
         " sum((SELECT count(*) FROM pass WHERE pass.trip = trip.id)), sum(distance_mm),"
@@ -41,7 +41,7 @@ std::vector<VehicleUse> vehicles_in(Database& database, const CarPlaces& places)
     return uses;
 }
 
-std::vector<CalibratedCar> calibrated_cars_in(Database& database, const CarPlaces& places) {
+std::vector<CalibratedCar> calibrated_cars_in(Database& database, const CarIndex& places) {
     const auto records = read_calibrations(database);
     auto select = database.prepare("SELECT id, pseudonym FROM vehicle");
     std::vector<CalibratedCar> cars;

@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Location of a trip's files: a folder, or a folder within an archive.
-struct Place {
+struct TripFolder {
     fs::path file;
     std::string prefix; ///< of members; "" at the root of the archive
 };
 
-Place place_of(const TripSource& source) {
+TripFolder place_of(const TripSource& source) {
     if (source.mapping == nullptr) {
         return {source.file, source.member};
     }

@@ -232,7 +232,7 @@ TruePlace true_place_at(const Drive& drive, double t_s) {
     return {std::min(even_m, abreast_m), std::max(even_m, abreast_m)};
 }
 
-PathPlace place_at_time(const Drive& drive, double t_s) {
+DrivenPose place_at_time(const Drive& drive, double t_s) {
     return place_at(drive.path, travel_m_at(drive.motion, t_s));
 }
 

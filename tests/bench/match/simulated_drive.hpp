@@ -75,7 +75,7 @@ struct TruePlace {
 TruePlace true_place_at(const Drive& drive, double t_s);
 
 /// Where it is on the ground.
-PathPlace place_at_time(const Drive& drive, double t_s);
+DrivenPose place_at_time(const Drive& drive, double t_s);
 
 /// When the centre of gravity came to be abreast of a place of the route; held at the ends.
 double t_s_at(const Drive& drive, double route_m);

@@ -18,10 +18,10 @@ std::vector<double> rough_values(std::size_t count) {
     return values;
 }
 
-std::vector<RoughPlace> places_above(double threshold, const std::vector<double>& values) {
-    RoughPlaces seeker{threshold};
-    std::vector<RoughPlace> places;
-    const auto add = [&](const std::optional<RoughPlace>& place) {
+std::vector<RoughInterval> places_above(double threshold, const std::vector<double>& values) {
+    RoughIntervalFinder seeker{threshold};
+    std::vector<RoughInterval> places;
+    const auto add = [&](const std::optional<RoughInterval>& place) {
         if (place) {
             places.push_back(*place);
         }
@@ -71,7 +71,7 @@ TEST(MovingMean, DoesNotDriftOverMillionsOfValues) {
     EXPECT_NEAR(last, 0.1, 1e-15);
 }
 
-TEST(RoughPlaces, AreWhereTheValuesStayAboveTheThreshold) {
+TEST(RoughIntervalFinder, AreWhereTheValuesStayAboveTheThreshold) {
     const auto places = places_above(2, {3, 1, 2, 2.5, 4, 2.1, 2, 5});
     ASSERT_EQ(places.size(), 3U);
     EXPECT_EQ(places[0].from_m, 0);
@@ -83,7 +83,7 @@ TEST(RoughPlaces, AreWhereTheValuesStayAboveTheThreshold) {
     EXPECT_EQ(places[2].from_m, 70); // lasts until the end
 }
 
-TEST(RoughPlaces, AreNoneOnASmoothRoad) {
+TEST(RoughIntervalFinder, AreNoneOnASmoothRoad) {
     EXPECT_TRUE(places_above(2, {0, 1, 2}).empty());
     EXPECT_TRUE(places_above(2, {}).empty());
 }

@@ -41,7 +41,7 @@ on_way(std::int64_t way_id, double from_m, double to_m, double mri, bool forward
 }
 
 ReferenceSurvey by_ways(std::vector<ReferenceRow> rows) {
-    return {ReferencePlaces::on_ways, std::move(rows), "hash"};
+    return {ReferenceLocation::on_ways, std::move(rows), "hash"};
 }
 
 ReferencePasses passes_of(const ReferenceSurvey& survey, const ReferenceConfig& config = {}) {
@@ -187,9 +187,9 @@ void expect_all_of_way_1(const ReferencePasses& found, bool forward, bool rising
 
 TEST(ReferencePasses, FollowTheDirectionInWhichMiddlesWereDriven) {
     expect_all_of_way_1(
-        passes_of({ReferencePlaces::middles, middles('A', 'B', 10), ""}), true, true);
+        passes_of({ReferenceLocation::middles, middles('A', 'B', 10), ""}), true, true);
     expect_all_of_way_1(
-        passes_of({ReferencePlaces::middles, middles('B', 'A', 10), ""}), false, false);
+        passes_of({ReferenceLocation::middles, middles('B', 'A', 10), ""}), false, false);
 }
 
 TEST(ReferencePasses, LetHeadingsDecideWhateverTheOrderOfTheFile) {
@@ -201,7 +201,7 @@ TEST(ReferencePasses, LetHeadingsDecideWhateverTheOrderOfTheFile) {
         if (against) {
             std::ranges::reverse(rows);
         }
-        expect_all_of_way_1(passes_of({ReferencePlaces::middles, rows, ""}), true, true);
+        expect_all_of_way_1(passes_of({ReferenceLocation::middles, rows, ""}), true, true);
     }
 }
 
@@ -214,7 +214,7 @@ TEST(ReferencePasses, LieBetweenTheEndsOfTheirRows) {
         rows[i].end = between(a, b, static_cast<double>(i + 1) / 10);
         rows[i].values.at = {};
     }
-    expect_all_of_way_1(passes_of({ReferencePlaces::ends, rows, ""}), false, false);
+    expect_all_of_way_1(passes_of({ReferenceLocation::ends, rows, ""}), false, false);
 }
 
 TEST(ReferencePasses, AreNoneOffTheNetwork) {
@@ -222,14 +222,14 @@ TEST(ReferencePasses, AreNoneOffTheNetwork) {
     for (auto& row : rows) {
         row.values.at.lat_deg += 0.02; // 2 km north
     }
-    const auto found = passes_of({ReferencePlaces::middles, rows, ""});
+    const auto found = passes_of({ReferenceLocation::middles, rows, ""});
     EXPECT_TRUE(found.passes.empty());
     EXPECT_THAT(found.reasons, ElementsAre(Pair("off_network", 10U)));
 }
 
 TEST(ReferencePasses, NeedANeighbourOrAHeading) {
     auto rows = middles('A', 'B', 10);
-    const auto found = passes_of({ReferencePlaces::middles, {rows[4]}, ""});
+    const auto found = passes_of({ReferenceLocation::middles, {rows[4]}, ""});
     EXPECT_THAT(found.reasons, ElementsAre(Pair("no_neighbour", 1U)));
 }
 

@@ -44,8 +44,8 @@ std::vector<SurveyRow> survey_of(const Way& way, double from_m, double to_m, dou
 }
 
 /// A position every 20 m; travel is 0 at from_m.
-std::vector<TripPlaceAt> trip_over(const Way& way, double from_m, double to_m) {
-    std::vector<TripPlaceAt> trip;
+std::vector<TravelPosition> trip_over(const Way& way, double from_m, double to_m) {
+    std::vector<TravelPosition> trip;
     for (double at_m = from_m; at_m <= to_m; at_m += 20) {
         trip.push_back({frame.to_geo(way(at_m)), at_m - from_m});
     }
@@ -53,7 +53,7 @@ std::vector<TripPlaceAt> trip_over(const Way& way, double from_m, double to_m) {
 }
 
 std::vector<SurveyPass> matched(const std::vector<SurveyRow>& survey,
-                                const std::vector<TripPlaceAt>& trip) {
+                                const std::vector<TravelPosition>& trip) {
     return match_survey(survey, trip, {});
 }
 

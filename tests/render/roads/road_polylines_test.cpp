@@ -113,7 +113,7 @@ TEST(RoadPolylines, DependOnNoDistantLineWhereTheyAreSeparate) {
         const StrokePass pass{.radius_px = 5, .looks = every_look, .visible = {0, 0, 1000, 1000}};
         const auto quads_of = [&](const Polyline& polyline) {
             std::vector<float> corners;
-            for (const auto& quad : ribbon(beside(polyline, right_px), pass)) {
+            for (const auto& quad : stroke_polyline(beside(polyline, right_px), pass)) {
                 for (const auto& corner : quad) {
                     corners.insert(corners.end(), {corner.x_px, corner.y_px, corner.round_after});
                 }
@@ -140,7 +140,7 @@ TEST(RoadPolylines, CloseARingWhereTheyAreSeparate) {
     for (const auto& polyline : polylines) {
         EXPECT_EQ(polyline.first, 2U); // two line segments before the line, and two after it
         EXPECT_EQ(polyline.looks.size(), 5U);
-        const auto quads = ribbon(polyline, {5, every_look, {0, 0, 1000, 1000}});
+        const auto quads = stroke_polyline(polyline, {5, every_look, {0, 0, 1000, 1000}});
         ASSERT_FALSE(quads.empty());
         for (const auto& quad : quads) {
             EXPECT_EQ(quad[0].round_before, 0); // mitred, also where the ring's numbers begin

@@ -48,7 +48,7 @@ GiveRows rows_of(const std::vector<std::uint8_t>& rgb, std::size_t width_px) {
     };
 }
 
-PlacedPicture picture() {
+PictureFrame picture() {
     return {.width_px = 600,
             .height_px = 400,
             .left = 500'000,

@@ -42,7 +42,7 @@ TEST(ReferenceReader, ReadsRowsByWays) {
                                   "1-0001,1,backward,20,40,,,3\n"
                                   "-,1,,60,40,,,3\n"
                                   "-,,,60,40,,,3\n");
-    EXPECT_EQ(survey.places, ReferencePlaces::on_ways);
+    EXPECT_EQ(survey.places, ReferenceLocation::on_ways);
     ASSERT_THAT(survey.rows, SizeIs(4));
     EXPECT_EQ(survey.rows[0].way, (WayPart{1, true, 0, 20}));
     EXPECT_THAT(survey.rows[0].values.left_mm_per_m, Optional(1.5));
@@ -54,14 +54,14 @@ TEST(ReferenceReader, ReadsRowsByWays) {
 TEST(ReferenceReader, ReadsRowsByTheirEnds) {
     const auto survey = read_rows("begin_lat_deg,begin_lon_deg,end_lat_deg,end_lon_deg,iri\n"
                                   "45,4,45.0002,4,2\n");
-    EXPECT_EQ(survey.places, ReferencePlaces::ends);
+    EXPECT_EQ(survey.places, ReferenceLocation::ends);
     EXPECT_EQ(survey.rows[0].end, (GeoPoint{45.0002, 4}));
 }
 
 TEST(ReferenceReader, ReadsMiddlesWithHeadingsInInchesAMile) {
     const auto survey = read_rows(
         "lat_deg,lon_deg,length_m,heading_deg,mri\n45,4,50,270,63.36\n45,4,50,,63.36\n", 1 / 63.36);
-    EXPECT_EQ(survey.places, ReferencePlaces::middles);
+    EXPECT_EQ(survey.places, ReferenceLocation::middles);
     EXPECT_THAT(survey.rows[0].heading_deg, Optional(270.0));
     EXPECT_THAT(survey.rows[0].values.length_m, Optional(50.0));
     EXPECT_NEAR(*survey.rows[0].values.mri_mm_per_m, 1, 1e-12);

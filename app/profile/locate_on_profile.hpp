@@ -10,7 +10,7 @@
 namespace macadam {
 
 /// Position of a trip on a measured profile, and its source.
-struct PlaceOnProfile {
+struct ProfilePosition {
     double at_m;                              ///< station at the trip's travel 0
     std::optional<ProfileRegistration> found; ///< `std::nullopt`: given by the user
 };
@@ -18,13 +18,13 @@ struct PlaceOnProfile {
 /// Returns the given position, or locates the trip by the road itself.
 ///
 /// \throws InputError  if the trip cannot be located.
-PlaceOnProfile place_on_profile(std::span<const Stretch> stretches,
+ProfilePosition locate_on_profile(std::span<const Stretch> stretches,
                                 const RoadProfile& road,
                                 const Vehicle& vehicle,
                                 std::optional<double> given_m,
                                 const std::filesystem::path& trip,
                                 const std::filesystem::path& profile);
 
-std::string place_text(const PlaceOnProfile& place);
+std::string position_text(const ProfilePosition& place);
 
 } // namespace macadam

@@ -1,4 +1,4 @@
-#include "app/profile/place_on_profile.hpp"
+#include "app/profile/locate_on_profile.hpp"
 
 #include "estimator/common/error.hpp"
 
@@ -11,7 +11,7 @@ constexpr double sure_correlation = 0.5; // over 300 m; wrong positions stay bel
 
 } // namespace
 
-PlaceOnProfile place_on_profile(std::span<const Stretch> stretches,
+ProfilePosition locate_on_profile(std::span<const Stretch> stretches,
                                 const RoadProfile& road,
                                 const Vehicle& vehicle,
                                 std::optional<double> given_m,
@@ -38,7 +38,7 @@ PlaceOnProfile place_on_profile(std::span<const Stretch> stretches,
     return {found->at_m, found};
 }
 
-std::string place_text(const PlaceOnProfile& place) {
+std::string position_text(const ProfilePosition& place) {
     if (!place.found) {
         return fmt::format("travel 0 is at station {:.2f} m (as given)", place.at_m);
     }
