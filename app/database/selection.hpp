@@ -55,7 +55,8 @@ void complete_filter(SegmentFilter& filter, const StoreReader& store);
 /// segments only, not to sections of roads.
 bool selects_segments(const SegmentFilter& filter);
 
-/// Refuses options that select segments beside --sections, which are reported whole.
+/// Checks that no option selects single segments where --sections is given: each section is
+/// reported with all of its segments.
 ///
 /// \throws UsageError  if there is one.
 void expect_whole_sections(const SegmentFilter& filter);

@@ -4,6 +4,7 @@
 #include "app/pipeline/trip_preparation.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/statistics.hpp"
 #include "estimator/events/event_detection.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
@@ -223,15 +224,13 @@ std::optional<GeoPoint> middle_of(const std::vector<GnssFix>& fixes) {
     if (fixes.empty()) {
         return std::nullopt;
     }
-    const auto median = [&](double GeoPoint::*degrees) {
+    const auto median_of = [&](double GeoPoint::*degrees) {
         std::vector<double> values;
         std::ranges::transform(
             fixes, std::back_inserter(values), [&](const GnssFix& fix) { return fix.at.*degrees; });
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::ranges::nth_element(values, middle);
-        return *middle;
+        return median(std::move(values));
     };
-    return GeoPoint{median(&GeoPoint::lat_deg), median(&GeoPoint::lon_deg)};
+    return GeoPoint{median_of(&GeoPoint::lat_deg), median_of(&GeoPoint::lon_deg)};
 }
 
 /// Explains why a trip gave no pass.

@@ -257,9 +257,7 @@ double median_step_s(const std::vector<double>& t_s) {
     for (std::size_t i = 0; i < steps_s.size(); ++i) {
         steps_s[i] = t_s[i + 1] - t_s[i];
     }
-    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-    std::ranges::nth_element(steps_s, middle);
-    return *middle;
+    return median(std::move(steps_s));
 }
 
 std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mps) {

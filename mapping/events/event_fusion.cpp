@@ -1,5 +1,7 @@
 #include "mapping/events/event_fusion.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -213,9 +215,7 @@ std::int32_t median_length_mm(const Cluster& cluster) {
     std::ranges::transform(cluster, std::back_inserter(lengths), [](const auto* report) {
         return report->event.length_mm;
     });
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::ranges::nth_element(lengths, middle);
-    return *middle;
+    return median(std::move(lengths));
 }
 
 void set_times_and_cars(FusedEvent& event, const Cluster& cluster) {

@@ -1,6 +1,6 @@
 #include "mapping/fusion/fleet/car_changes.hpp"
 
-#include "mapping/fusion/fleet/fleet_fit.hpp"
+#include "estimator/common/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -168,12 +168,12 @@ RoughDay rough_day(std::span<const Residual> residuals, const FleetTrips& trips)
         }
         rough.means.push_back(sum / static_cast<double>(past - first));
     }
-    rough.day.level.value = median_of(rough.means);
-    const double middle = median_of(off);
+    rough.day.level.value = median(rough.means);
+    const double middle = median(off);
     for (auto& value : off) {
         value = std::abs(value - middle);
     }
-    const double scatter = std::max(1e-6, sd_over_mad_of_normal * median_of(std::move(off)));
+    const double scatter = std::max(1e-6, normal_sd_per_mad * median(std::move(off)));
     rough.day.log_scatter = {std::log(scatter),
                              square(scatter_day_sd) +
                                  mad_variance / static_cast<double>(residuals.size())};

@@ -1,5 +1,6 @@
 #include "mapping/fusion/fleet/fleet_calibration.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/fusion/fleet/fleet_fit.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::vector<double> anchor_weights(const std::vector<std::optional<double>>& kno
             of_cars.push_back(stated_sd[car]);
         }
     }
-    const double median_sd = median_of(std::move(of_cars));
+    const double median_sd = median(std::move(of_cars));
     auto weights = share.empty() ? std::vector<double>(known.size(), 1) : share;
     for (std::size_t car = 0; car < stated_sd.size(); ++car) {
         if (!known[car] && stated_sd[car] > 0) {

@@ -1,5 +1,7 @@
 #include "mapping/fusion/fleet/fleet_fit.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -131,7 +133,7 @@ void FleetFit::fit_levels() {
         level_um_[place] = std::max(1.0, sum / whole);
         levels.push_back(level_um_[place]);
     }
-    middle_um_ = std::max(1.0, median_of(std::move(levels)));
+    middle_um_ = std::max(1.0, median(std::move(levels)));
 }
 
 /// Level of a reading's place from the other readings there.
@@ -253,7 +255,7 @@ double FleetFit::spread_of_cars(const std::vector<bool>& counts, double about) c
     }
     const auto n = static_cast<double>(off.size());
     const double seen =
-        square(sd_over_mad_of_normal * median_of(std::move(off))) * n / (n - 1) - sampling / n;
+        square(normal_sd_per_mad * median(std::move(off))) * n / (n - 1) - sampling / n;
     return std::sqrt((cars_of_prior * square(prior_.car_sd) + n * std::max(0.0, seen)) /
                      (cars_of_prior + n));
 }
@@ -339,7 +341,7 @@ FleetFit::LocalError FleetFit::local_error() const {
         return {};
     }
     const auto count = static_cast<double>(off.size());
-    const double seen = square(sd_over_mad_of_normal * median_of(std::move(off)));
+    const double seen = square(normal_sd_per_mad * median(std::move(off)));
     return {std::max(0.0, seen - expected_variance / count), count / places_alike};
 }
 
@@ -366,9 +368,8 @@ std::vector<double> FleetFit::scatter_of_cars() const {
     }
     std::vector<double> scatter;
     for (auto& of_car : off) {
-        scatter.push_back(of_car.size() < prior_.min_shared
-                              ? 1
-                              : sd_over_mad_of_normal * median_of(std::move(of_car)));
+        scatter.push_back(
+            of_car.size() < prior_.min_shared ? 1 : normal_sd_per_mad * median(std::move(of_car)));
     }
     return scatter;
 }
@@ -391,7 +392,7 @@ void FleetFit::take_spread() {
     }
     car_sd_ = spread_of_cars(counts, mean_error_);
     if (!off.empty()) {
-        const double whole = square(sd_over_mad_of_normal * median_of(std::move(off)));
+        const double whole = square(normal_sd_per_mad * median(std::move(off)));
         const double beside = square(prior_.rest_sd_um / middle_um_);
         rest_sd = std::sqrt(std::max(whole - beside, whole / 100));
     }
@@ -415,22 +416,13 @@ void FleetFit::take_spread() {
         }
     }
     if (used > cars_used) {
-        const double seen = square(sd_over_mad_of_normal * median_of(std::move(errors))) * used /
-                                (used - cars_used) -
-                            sampling / used;
+        const double seen =
+            square(normal_sd_per_mad * median(std::move(errors))) * used / (used - cars_used) -
+            sampling / used;
         trip_sd = std::sqrt(
             (trips_of_prior * square(prior_.trip_sd) + (used - cars_used) * std::max(0.0, seen)) /
             (trips_of_prior + used - cars_used));
     }
-}
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) {
-        return 0;
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 } // namespace macadam

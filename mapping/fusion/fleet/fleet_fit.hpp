@@ -9,12 +9,6 @@
 
 namespace macadam {
 
-/// Ratio of standard deviation to median absolute deviation for a normal distribution.
-inline constexpr double sd_over_mad_of_normal = 1.4826;
-
-/// Returns the median; 0 for an empty vector.
-double median_of(std::vector<double> values);
-
 /// Runs the fit of calibrate_fleet step by step.
 class FleetFit {
 public:
