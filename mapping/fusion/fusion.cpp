@@ -1,23 +1,20 @@
 #include "mapping/fusion/fusion.hpp"
 
 #include "estimator/common/statistics.hpp"
+#include "mapping/fusion/pass_observations.hpp"
 #include "mapping/fusion/roughness_time_series.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace macadam {
 namespace {
 
-constexpr double um_per_mm = 1000;
 constexpr double stated_passes = 6; // pseudo-observations that scatter as stated
 constexpr double stated_cars = 12; // pseudo-observations of cars that differ as stated, so that few
                                    // cars that agree by chance are not taken for sure
-constexpr double survey_share = 0.5; // of a reference's variance: common to all its rows on a road
-
 using Eigen::Index;
 using Eigen::VectorXd;
 
@@ -48,68 +45,6 @@ double weighted_median(std::vector<Weighed> values) {
     return values.back().value_um;
 }
 
-/// Removes the calibration of the car from a reading, which is linear in IRI.
-double true_um(const FusionInput& input, double read_um) {
-    return input.calibration
-               ? std::max(0.0, (read_um - input.calibration->offset_um) / input.calibration->gain)
-               : read_um;
-}
-
-/// Sorts passes by car, period, trip and occurrence; cars by their first trip, so that vehicle
-/// numbers do not affect any sum.
-std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
-    struct CarPass {
-        std::size_t first; ///< first pass of the car
-        std::int64_t vehicle;
-        std::uint32_t period;
-        std::size_t pass;
-    };
-    std::vector<CarPass> places;
-    places.reserve(passes.size());
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        places.push_back({i, passes[i].vehicle, passes[i].period, i});
-    }
-    std::ranges::sort(places, {}, [](const CarPass& place) {
-        return std::pair{place.vehicle, place.pass};
-    });
-    for (std::size_t i = 1; i < places.size(); ++i) {
-        if (places[i].vehicle == places[i - 1].vehicle) {
-            places[i].first = places[i - 1].first;
-        }
-    }
-    std::ranges::sort(places, {}, [](const CarPass& place) {
-        return std::tuple{place.first, place.period, place.pass};
-    });
-    std::vector<const FusionInput*> sorted;
-    sorted.reserve(passes.size());
-    for (const auto& place : places) {
-        sorted.push_back(&passes[place.pass]);
-    }
-    return sorted;
-}
-
-/// Groups consecutive passes for which `alike` holds.
-template <typename Alike>
-std::vector<FusionObservations::Block> runs_of(const std::vector<const FusionInput*>& passes,
-                                               const Alike& alike) {
-    std::vector<FusionObservations::Block> runs;
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        if (i == 0 || !alike(*passes[i - 1], *passes[i])) {
-            runs.push_back({static_cast<Index>(i), 0});
-        }
-        ++runs.back().count;
-    }
-    return runs;
-}
-
-VectorXd values_of(const std::vector<const FusionInput*>& passes) {
-    VectorXd values(static_cast<Index>(passes.size()));
-    std::ranges::transform(passes, values.begin(), [](const FusionInput* input) {
-        return true_um(*input, input->pass.iri_um);
-    });
-    return values;
-}
-
 /// Returns the unweighted median of the readings.
 double level_um(const VectorXd& values) {
     std::vector<Weighed> alike;
@@ -117,88 +52,6 @@ double level_um(const VectorXd& values) {
         alike.push_back({value_um, 1});
     }
     return std::max(1.0, weighted_median(std::move(alike)));
-}
-
-/// Rescales the stated sds to the level of the segment. An sd is mostly proportional to the
-/// reading, and a pass must not gain weight by reading low.
-VectorXd stated_um(const std::vector<const FusionInput*>& passes, double level_um) {
-    VectorXd stated(static_cast<Index>(passes.size()));
-    std::ranges::transform(passes, stated.begin(), [&](const FusionInput* input) {
-        return input->pass.sd_um * level_um / std::max<double>(1, input->pass.iri_um);
-    });
-    return stated;
-}
-
-/// Sets the values of references to 0.
-VectorXd of_cars_alone(const std::vector<const FusionInput*>& passes, VectorXd values) {
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        if (passes[i]->reference) {
-            values[static_cast<Index>(i)] = 0;
-        }
-    }
-    return values;
-}
-
-/// Stated sds in two parts: common to all cars, and of the car.
-struct StatedParts {
-    VectorXd common; ///< 0 for references
-    VectorXd car;    ///< of a car that is not calibrated
-};
-
-StatedParts parts_of(const std::vector<const FusionInput*>& passes,
-                     const VectorXd& stated,
-                     double level_um,
-                     const FusionConfig& config) {
-    StatedParts parts{VectorXd::Zero(stated.size()), VectorXd::Zero(stated.size())};
-    for (Index i = 0; i < stated.size(); ++i) {
-        const auto& input = *passes[static_cast<std::size_t>(i)];
-        const double share = config.common_share * stated[i] * stated[i];
-        const bool is_limited =
-            !input.by_filter && (input.pass.validity & validity::lateral_alone) == 0;
-        const double common =
-            is_limited ? std::min(share, max_common_variance_um2(level_um, config)) : share;
-        parts.common[i] = input.reference ? 0 : std::sqrt(common);
-        parts.car[i] = std::sqrt(share - common + config.car_share * stated[i] * stated[i]);
-    }
-    return parts;
-}
-
-/// \param beside_car  sds that count as part of the car's error, in addition to its own.
-FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
-                               const VectorXd& values,
-                               const VectorXd& stated,
-                               const VectorXd& of_car,
-                               const VectorXd& beside_car,
-                               double level_um,
-                               const FusionConfig& config) {
-    const auto same_car = [](const FusionInput& a, const FusionInput& b) {
-        return a.vehicle == b.vehicle && a.period == b.period;
-    };
-    const auto same_trip = [&](const FusionInput& a, const FusionInput& b) {
-        return same_car(a, b) && a.trip_sha256 == b.trip_sha256;
-    };
-    const double rest =
-        std::hypot(config.rest_relative_sd * level_um, config.rest_sd_mm_per_m * um_per_mm);
-    FusionObservations readings{.values = values,
-                                .car_sd = of_car,
-                                .rest_sd = VectorXd::Constant(values.size(), rest),
-                                .trip_sd = config.trip_relative_sd * level_um,
-                                .cars = runs_of(passes, same_car),
-                                .trips = runs_of(passes, same_trip)};
-    const auto input = [&](Index i) { return passes[static_cast<std::size_t>(i)]; };
-    for (Index i = 0; i < values.size(); ++i) {
-        if (const auto& calibration = input(i)->calibration) {
-            readings.car_sd[i] = calibration->relative_sd * level_um;
-            readings.rest_sd[i] *= calibration->scatter;
-        }
-        readings.car_sd[i] = std::hypot(readings.car_sd[i], beside_car[i]);
-        if (input(i)->reference) {
-            readings.car_sd[i] = std::sqrt(survey_share) * stated[i];
-            readings.rest_sd[i] = std::sqrt(1 - survey_share) * stated[i];
-        }
-    }
-    std::erase_if(readings.trips, [&](const auto& trip) { return input(trip.first)->reference; });
-    return readings;
 }
 
 VectorXd trip_variances(const FusionObservations& readings) {
@@ -368,21 +221,21 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const VectorXd values = values_of(sorted);
     const double middle_um = level_um(values);
     const VectorXd stated = stated_um(sorted, middle_um);
-    const auto parts = parts_of(sorted, stated, middle_um, config);
+    const auto parts = stated_parts(sorted, stated, middle_um, config);
     const VectorXd of_cars = of_cars_alone(sorted, stated);
     const bool beside_references = of_cars.maxCoeff() > 0 && of_cars.minCoeff() <= 0;
     // The error common to all cars cannot be reduced by weighting, yet it makes a pass worth less;
     // next to references it is estimated.
     const VectorXd none = VectorXd::Zero(values.size());
     auto weighed = beside_references
-                       ? readings_of(sorted, values, stated, parts.car, none, middle_um, config)
-                       : readings_of(sorted,
-                                     values,
-                                     stated,
-                                     std::sqrt(config.car_share) * stated,
-                                     std::sqrt(config.common_share) * stated,
-                                     middle_um,
-                                     config);
+                       ? observations_of(sorted, values, stated, parts.car, none, middle_um, config)
+                       : observations_of(sorted,
+                                         values,
+                                         stated,
+                                         std::sqrt(config.car_share) * stated,
+                                         std::sqrt(config.common_share) * stated,
+                                         middle_um,
+                                         config);
     if (beside_references) {
         weighed.common_sd = common_sd(parts.common, middle_um, config);
     }
@@ -391,7 +244,7 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const auto level = roughness_level(weighed, times_of(sorted), middle_um, tail, config.change);
 
     const auto weights = weights_of(weighed, level.trust);
-    const auto apart = readings_of(sorted, values, stated, parts.car, none, middle_um, config);
+    const auto apart = observations_of(sorted, values, stated, parts.car, none, middle_um, config);
     const VectorXd cars_part = of_cars_alone(sorted, level.influence);
     const auto cars = cars_in(sorted);
     const double agreed =

@@ -1,4 +1,7 @@
 #include "storage/sqlite/sqlite.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/sqlite/sqlite_error.hpp"
 #include "storage/sqlite/sqlite_guard.hpp"
 
 #include <fmt/format.h>
@@ -6,7 +9,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <utility>
 
 namespace macadam {
@@ -26,62 +28,6 @@ int is_to_stop(void* wait) {
 
 int wait_for_turn(void* wait, int pauses) {
     return static_cast<LockWait*>(wait)->wait(pauses) ? 1 : 0;
-}
-
-std::string cause_of_io_error(sqlite3* database, int code) {
-    const bool reads = code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ;
-    const int error = sqlite3_system_errno(database); // not always preserved until here
-    return fmt::format("cannot be {}: {} ({})",
-                       reads ? "read" : "written",
-                       error != 0 ? std::strerror(error) : sqlite3_errmsg(database),
-                       code);
-}
-
-constexpr const char* unfinished =
-    "contains an interrupted import and is read-only, so it cannot be rolled back: open it "
-    "once where it can be written";
-
-constexpr const char* moved = "was removed or replaced while this command was using it; run "
-                              "the command again";
-
-/// Tests for an interrupted transaction that only a program with write access can recover.
-bool is_unfinished(int code) {
-    return code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY;
-}
-
-std::string cause_of(sqlite3* database, const OpenFile& file, int code) {
-    switch (code & 0xff) {
-    case SQLITE_FULL:
-        return "no space left on the disk, nothing was changed";
-    case SQLITE_READONLY:
-        return is_unfinished(code)               ? unfinished
-               : code == SQLITE_READONLY_DBMOVED ? moved
-                                                 : "cannot be written, it is read-only";
-    case SQLITE_CANTOPEN:
-        return "cannot be opened";
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
-        return "access denied";
-    case SQLITE_NOTADB:
-        return "is not a Macadam database, expected one made by 'macadam init'";
-    case SQLITE_CORRUPT:
-        return fmt::format("is damaged: {}", sqlite3_errmsg(database));
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-        return file.wait.reason();
-    case SQLITE_INTERRUPT:
-        return "interrupted while reading";
-    case SQLITE_IOERR:
-        return cause_of_io_error(database, code);
-    default:
-        return sqlite3_errmsg(database);
-    }
-}
-
-void check(sqlite3* database, const OpenFile& file, int code) {
-    if (code != SQLITE_OK && code != SQLITE_ROW && code != SQLITE_DONE) {
-        throw InputError{fmt::format("{}: {}", file.name.string(), cause_of(database, file, code))};
-    }
 }
 
 /// Settings that do not persist in the file.
@@ -120,7 +66,7 @@ sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file
     sqlite3* database = nullptr;
     const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
     try {
-        check(database, file, code);
+        expect_success(database, file, code);
     } catch (...) {
         sqlite3_close_v2(database);
         throw;
@@ -159,7 +105,7 @@ bool must_be_taken_as_it_is(sqlite3* database,
     log += "-wal";
     std::error_code ignored;
     if (std::filesystem::file_size(log, ignored) > 0 && !ignored) {
-        throw InputError{fmt::format("{}: {}", known_as.string(), unfinished)};
+        throw InputError{fmt::format("{}: {}", known_as.string(), unfinished_cause)};
     }
     return true;
 }
@@ -185,12 +131,12 @@ Statement::Statement(sqlite3* database, const OpenFile& file, const char* sql) :
     sqlite3_stmt* statement = nullptr;
     const int code = sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
     statement_.reset(statement);
-    check(database, file, code);
+    expect_success(database, file, code);
 }
 
 bool Statement::step() {
     const int code = sqlite3_step(statement_.get());
-    check(sqlite3_db_handle(statement_.get()), *file_, code);
+    expect_success(sqlite3_db_handle(statement_.get()), *file_, code);
     return code == SQLITE_ROW;
 }
 
@@ -204,46 +150,47 @@ int Statement::position_of(const char* name) const {
 }
 
 void Statement::bind_one(int position, std::int64_t value) {
-    check(sqlite3_db_handle(statement_.get()),
-          *file_,
-          sqlite3_bind_int64(statement_.get(), position, value));
+    expect_success(sqlite3_db_handle(statement_.get()),
+                   *file_,
+                   sqlite3_bind_int64(statement_.get(), position, value));
 }
 
 void Statement::bind_one(int position, double value) {
-    check(sqlite3_db_handle(statement_.get()),
-          *file_,
-          sqlite3_bind_double(statement_.get(), position, value));
+    expect_success(sqlite3_db_handle(statement_.get()),
+                   *file_,
+                   sqlite3_bind_double(statement_.get(), position, value));
 }
 
 void Statement::bind_one(int position, std::string_view value) {
-    check(sqlite3_db_handle(statement_.get()),
-          *file_,
-          sqlite3_bind_text64(statement_.get(),
-                              position,
-                              value.empty() ? "" : value.data(), // a null pointer would bind NULL
-                              value.size(),
-                              SQLITE_TRANSIENT,
-                              SQLITE_UTF8));
+    expect_success(
+        sqlite3_db_handle(statement_.get()),
+        *file_,
+        sqlite3_bind_text64(statement_.get(),
+                            position,
+                            value.empty() ? "" : value.data(), // a null pointer would bind NULL
+                            value.size(),
+                            SQLITE_TRANSIENT,
+                            SQLITE_UTF8));
 }
 
 void Statement::bind_one(int position, Blob value) {
-    check(sqlite3_db_handle(statement_.get()),
-          *file_,
-          sqlite3_bind_blob64(statement_.get(),
-                              position,
-                              value.bytes.empty() ? "" : value.bytes.data(),
-                              value.bytes.size(),
-                              SQLITE_TRANSIENT));
+    expect_success(sqlite3_db_handle(statement_.get()),
+                   *file_,
+                   sqlite3_bind_blob64(statement_.get(),
+                                       position,
+                                       value.bytes.empty() ? "" : value.bytes.data(),
+                                       value.bytes.size(),
+                                       SQLITE_TRANSIENT));
 }
 
 void Statement::bind_one(int position, Pointer value) {
-    check(sqlite3_db_handle(statement_.get()),
-          *file_,
-          sqlite3_bind_pointer(statement_.get(), position, value.to, value.type, nullptr));
+    expect_success(sqlite3_db_handle(statement_.get()),
+                   *file_,
+                   sqlite3_bind_pointer(statement_.get(), position, value.to, value.type, nullptr));
 }
 
 void Statement::bind_one(int position, std::nullopt_t) {
-    check(
+    expect_success(
         sqlite3_db_handle(statement_.get()), *file_, sqlite3_bind_null(statement_.get(), position));
 }
 
@@ -316,7 +263,7 @@ Database::Database(const std::filesystem::path& file,
     }
     auto* const database = handle();
     if (access == Access::write && sqlite3_db_readonly(database, "main") == 1) {
-        check(database, *file_, SQLITE_READONLY);
+        expect_success(database, *file_, SQLITE_READONLY);
     }
     if (access == Access::write) {
         database_.get_deleter().writes = true;
@@ -337,7 +284,7 @@ void Database::enable_wal(std::chrono::milliseconds timeout) {
     ensure_wal();
     for (int pauses = 0; wants_log_ && std::chrono::steady_clock::now() < end; ++pauses) {
         if (!file_->wait.wait(pauses)) {
-            check(handle(), *file_, SQLITE_BUSY);
+            expect_success(handle(), *file_, SQLITE_BUSY);
         }
         ensure_wal();
     }
@@ -353,7 +300,7 @@ void Database::ensure_wal() {
     sqlite3_busy_handler(handle(), wait_for_turn, &file_->wait);
     wants_log_ = (code & 0xff) == SQLITE_BUSY;
     if (!wants_log_) {
-        check(handle(), *file_, code);
+        expect_success(handle(), *file_, code);
     }
 }
 
@@ -363,13 +310,13 @@ bool Database::checkpoint_wal() {
         sqlite3_wal_checkpoint_v2(handle(), "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
     sqlite3_busy_handler(handle(), wait_for_turn, &file_->wait);
     if ((code & 0xff) != SQLITE_BUSY) {
-        check(handle(), *file_, code);
+        expect_success(handle(), *file_, code);
     }
     return code == SQLITE_OK;
 }
 
 void Database::run(const char* sql) {
-    check(handle(), *file_, sqlite3_exec(handle(), sql, nullptr, nullptr, nullptr));
+    expect_success(handle(), *file_, sqlite3_exec(handle(), sql, nullptr, nullptr, nullptr));
 }
 
 Statement Database::prepare(const char* sql) {
@@ -394,7 +341,7 @@ void Database::expect_in_place() const {
     int has_moved = 0;
     sqlite3_file_control(handle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
     if (has_moved != 0) {
-        throw InputError{fmt::format("{}: {}", file().string(), moved)};
+        throw InputError{fmt::format("{}: {}", file().string(), moved_cause)};
     }
 }
 
