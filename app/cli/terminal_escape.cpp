@@ -22,6 +22,10 @@ bool steers_a_terminal(std::uint32_t letter) {
     return letter < 0x20 || (0x7F <= letter && letter <= 0x9F);
 }
 
+bool is_printable_ascii(char c) {
+    return 0x20 <= c && c < 0x7F;
+}
+
 std::string spelled(std::string_view letter) {
     const auto code = utf8_letter(letter);
     if (letter.size() == 1 && (code < 0x20 || code >= 0x7F)) {
@@ -39,6 +43,13 @@ std::string printable_name(std::string_view name) {
     std::string text;
     text.reserve(name.size());
     while (!name.empty()) {
+        // Every cell of a table comes here, and most are ASCII.
+        const auto other = std::ranges::find_if_not(name, is_printable_ascii);
+        text.append(name.begin(), other);
+        name.remove_prefix(static_cast<std::size_t>(other - name.begin()));
+        if (name.empty()) {
+            break;
+        }
         const auto length = std::max<std::size_t>(1, utf8_length(name));
         text += spelled(name.substr(0, length));
         name.remove_prefix(length);
