@@ -197,6 +197,9 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     if (arguments.value("--output") == standard_output) {
         options.text.put = print;
     }
+    if (is_site(arguments)) {
+        options.site = parse_site(options, arguments);
+    }
     expect_fitting(options, arguments);
     if (options.events) {
         expect_events_alone(options);
@@ -207,9 +210,10 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     if (options.sections) {
         expect_sections_alone(options);
     }
-    if (is_site(arguments)) {
-        options.site = parse_site(options, arguments);
-    } else if (is_tile_archive(options.output)) {
+    if (options.site) {
+        return options;
+    }
+    if (is_tile_archive(options.output)) {
         options.tiles = parse_tile_plan(arguments);
         options.pictures = parse_picture_plan(arguments, *options.tiles, options.filter, console);
     } else {
