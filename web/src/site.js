@@ -215,6 +215,7 @@ async function draw() {
   const { site } = data;
   const language = site.languages.includes(state.lang) ? state.lang : site.languages.find((code) => navigator.language.startsWith(code)) ?? 'en';
   await speak(data, language, state.unit);
+  if (state.mode === 'change' && !state.a && site.months.length > 1) choose({ a: site.months[0], b: site.months.at(-1) });
   document.title = `${site.title} – ${w('title')}`;
   const [totals, worst] = await Promise.all([data.totals(), data.worst()]);
   const handle = el('button', { type: 'button', class: 'handle', 'aria-label': w('site.panel'), 'aria-expanded': 'true', onclick: () => setSheet(raise[parts.sheet.dataset.height]) });

@@ -165,13 +165,16 @@ describe('the page', { timeout: 280_000 }, () => {
     await close();
   });
 
-  test('compares two months, and calls only what is beyond chance a change', async () => {
-    const { page, text, close } = await town.page(`#map=15/${(town.site.bounds[1] + town.site.bounds[3]) / 2}/${(town.site.bounds[0] + town.site.bounds[2]) / 2}`);
-    await page.keyboard.press('c');
-    await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
-    assert.match(await text('.panel'), /In view: \d+ segments smoother, \d+ rougher, \d+ without significant change/);
-    await close();
-  });
+  for (const how of ['by a key', 'by its address']) {
+    test(`compares two months ${how}, and calls only what is beyond chance a change`, async () => {
+      const [west, south, east, north] = town.site.bounds;
+      const { page, text, close } = await town.page(`#map=15/${(south + north) / 2}/${(west + east) / 2}${how === 'by a key' ? '' : '&mode=change'}`);
+      if (how === 'by a key') await page.keyboard.press('c');
+      await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
+      assert.match(await text('.panel'), /In view: \d+ segments smoother, \d+ rougher, \d+ without significant change/);
+      await close();
+    });
+  }
 
   test('hands on the filtered segments as CSV, and says their number first', async () => {
     const { page, text, close } = await town.page('#c=poor');
