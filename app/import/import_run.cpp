@@ -174,7 +174,7 @@ ImportTotals import_paths(RoadStore& store,
         });
     const auto fused = fuse(store, console, totals.fusion);
     say_totals(totals, fused, console);
-    if (const auto words = alignment_summary_text(store.laid()); fused > 0 && !words.empty()) {
+    if (const auto words = alignment_summary_text(store.alignment()); fused > 0 && !words.empty()) {
         console.say(words);
     }
     expect_all_read(totals, trips);

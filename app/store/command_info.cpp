@@ -81,7 +81,7 @@ std::string json_of(const StoreInfo& info,
         .add("km", JsonNumber{info.km, 3})
         .add("network_km", JsonNumber{info.network_km, 3})
         .add("classes", JsonRaw{class_lengths_json(info.classes, info.km)})
-        .add("laid_on_others", JsonRaw{json_of(info.laid)});
+        .add("laid_on_others", JsonRaw{json_of(info.alignment)});
     add_to(object, tables);
     object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
     if (info.settings.privacy == PrivacyProfile::crowd) {
@@ -156,7 +156,7 @@ std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
                             "which is far less accurate\n",
                             info.lateral_passes);
     }
-    if (const auto words = alignment_summary_text(info.laid); !words.empty()) {
+    if (const auto words = alignment_summary_text(info.alignment); !words.empty()) {
         text += fmt::format("passes      {}\n", words);
     }
     for (const auto& [name, km] : info.classes) {

@@ -206,7 +206,7 @@ void LockWait::begin() {
     began_ = looked_ = alive_ = Clock::now();
     sign_ = {};
     holder_.reset();
-    told_ = stopped_ = gave_up_ = false;
+    announced_ = stopped_ = gave_up_ = false;
 }
 
 bool LockWait::wait(int pauses) {
@@ -224,8 +224,8 @@ bool LockWait::wait(int pauses) {
         gave_up_ = true;
         return false;
     }
-    if (!told_ && wait_policy_.tell && now - began_ >= wait_policy_.tell_after) {
-        told_ = true;
+    if (!announced_ && wait_policy_.tell && now - began_ >= wait_policy_.tell_after) {
+        announced_ = true;
         holder_ = holder_of_lock(file_);
         wait_policy_.tell(fmt::format("waiting for {}, {}; press Ctrl-C to stop waiting",
                                       holder_text(),

@@ -68,7 +68,7 @@ private:
     Clock::time_point alive_{};
     Sign sign_{};
     std::optional<LockHolder> holder_;
-    bool told_ = false;
+    bool announced_ = false;
     bool stopped_ = false;
     bool gave_up_ = false;
 };

@@ -127,7 +127,7 @@ Answer read_store(const fs::path& file) {
     read([&] { store.latest_publication(); });
     read([&] { store.network_hash(); });
     read([&] { store.waiting(); });
-    read([&] { store.laid(); });
+    read([&] { store.alignment(); });
     read([&] { store.contains_trip(testing::trip_record(1).sha256); });
     read([&] { store.has_forgotten(testing::trip_record(1).sha256); });
     read([&] { store.usage(); });

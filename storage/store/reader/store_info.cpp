@@ -124,7 +124,7 @@ StoreInfo StoreReader::info() const {
         .first_seen_ms = span.first_ms,
         .last_seen_ms = span.last_ms,
         .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
-        .laid = alignment_in(database),
+        .alignment = alignment_in(database),
         .generation = read_generation(database),
         .box = cover.box};
     info.publication = latest_publication();
@@ -144,7 +144,7 @@ std::size_t StoreReader::waiting() const {
     return count(store_->database, "SELECT count(*) FROM segment_dirty");
 }
 
-AlignmentSummary StoreReader::laid() const {
+AlignmentSummary StoreReader::alignment() const {
     return alignment_in(store_->database);
 }
 

@@ -145,7 +145,7 @@ public:
     GeoBox map_box() const;
 
     /// Part of info(), faster: summary of the alignment of passes.
-    AlignmentSummary laid() const;
+    AlignmentSummary alignment() const;
 
     /// Mean speed of the cars' passes over each segment, km/h; segments without one are missing.
     std::map<SegmentKey, double> mean_speeds_kmh() const;

@@ -133,8 +133,8 @@ struct StoreInfo {
     std::vector<ClassLength> classes;
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
-    std::size_t waiting = 0; ///< segments whose new passes are not yet fused
-    AlignmentSummary laid;   ///< of all fused chunks; the median is that of the chunks' medians
+    std::size_t waiting = 0;    ///< segments whose new passes are not yet fused
+    AlignmentSummary alignment; ///< of all fused chunks; the median is that of the chunks' medians
     int generation = 1;
     GeoBox box; ///< of segments with passes; of all segments if there are none
 };

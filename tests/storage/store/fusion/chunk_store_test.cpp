@@ -171,23 +171,23 @@ TEST(ChunkStore, TellsTheLagOfEachPass) {
 
 TEST(ChunkStore, TellsHowFarPassesWereMoved) {
     const auto store = store_of(test_folder() / "a.gpkg", {0, 1, 2, 3, 4, 5});
-    const auto laid = store.laid();
-    EXPECT_EQ(laid.drives, 6 * 4); // two chunks in each direction
-    EXPECT_EQ(laid.found, laid.drives);
-    EXPECT_EQ(laid.beyond_reach, 0);
+    const auto alignment = store.alignment();
+    EXPECT_EQ(alignment.drives, 6 * 4); // two chunks in each direction
+    EXPECT_EQ(alignment.found, alignment.drives);
+    EXPECT_EQ(alignment.beyond_reach, 0);
     // About their mean of 0 the trips lie at 0, 4, -3, 1.5, -5 and 2.5 m: four beyond 2 m.
-    EXPECT_EQ(laid.moved_far, 4 * 4);
-    EXPECT_GE(laid.middle_lag_cm, 250 - 30);
-    EXPECT_LE(laid.middle_lag_cm, 300 + 30);
-    EXPECT_EQ(store.info().laid.found, laid.found);
+    EXPECT_EQ(alignment.moved_far, 4 * 4);
+    EXPECT_GE(alignment.middle_lag_cm, 250 - 30);
+    EXPECT_LE(alignment.middle_lag_cm, 300 + 30);
+    EXPECT_EQ(store.info().alignment.found, alignment.found);
     EXPECT_EQ(store.history({1, true, 12})[0].finding, LagStatus::found);
 }
 
 TEST(ChunkStore, TellsOfNoLagsWhereOneTripDroveAlone) {
-    const auto laid = store_of(test_folder() / "a.gpkg", {1}).laid();
-    EXPECT_EQ(laid.drives, 4);
-    EXPECT_EQ(laid.found, 0);
-    EXPECT_EQ(laid.middle_lag_cm, 0);
+    const auto alignment = store_of(test_folder() / "a.gpkg", {1}).alignment();
+    EXPECT_EQ(alignment.drives, 4);
+    EXPECT_EQ(alignment.found, 0);
+    EXPECT_EQ(alignment.middle_lag_cm, 0);
 }
 
 TEST(ChunkStore, KeepsAPassAsItsTripReadIt) {
