@@ -16,7 +16,7 @@ namespace {
 /// What pages may load: their own scripts, styles, fonts and data alone.
 constexpr std::string_view content_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; worker-src 'self'; "
-    "img-src 'self' data:; font-src 'self'; connect-src 'self'; manifest-src 'self'; "
+    "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; manifest-src 'self'; "
     "base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
 constexpr std::size_t least_compressed = 1024; // bytes; below, gzip gains less than a packet

@@ -56,7 +56,15 @@ std::optional<HttpResponse> file_response(const std::filesystem::path& folder,
     if (path.ends_with('/')) {
         file /= "index.html";
     }
-    if (lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    if (lstat(file.c_str(), &status) != 0) {
+        return std::nullopt;
+    }
+    if (S_ISDIR(status.st_mode) && !path.ends_with('/')) { // its links are relative to the slash
+        HttpResponse moved{.status = 308, .type = "text/plain", .route = "file"};
+        moved.headers.emplace_back("Location", percent_encoded(file.filename().string()) + "/");
+        return moved;
+    }
+    if (!S_ISREG(status.st_mode)) {
         return std::nullopt;
     }
     return HttpResponse{

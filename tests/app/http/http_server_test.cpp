@@ -320,6 +320,13 @@ TEST(StaticFolder, SendsRangesOfTheSameFileAlone) {
               200);
 }
 
+TEST(StaticFolder, LeadsFromFoldersToTheirPages) {
+    const FileWorld world;
+    const auto moved = get(world.server->port(), "/a");
+    EXPECT_EQ(moved.status, 308);
+    EXPECT_EQ(moved.headers.at("location"), "a/");
+}
+
 TEST(StaticFolder, ServesNothingOutside) {
     const FileWorld world;
     for (const std::string_view path : {"/../secret.txt",
@@ -333,7 +340,7 @@ TEST(StaticFolder, ServesNothingOutside) {
                                         "/%2fetc/passwd",
                                         "/link.txt",
                                         "/.hidden",
-                                        "/a",
+
                                         "/a/",
                                         "/./index.html",
                                         "/a//roads.pmtiles",
