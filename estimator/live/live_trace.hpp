@@ -17,8 +17,8 @@ struct LiveConfig {
     LiveWindow window;
     double length_m = 20; ///< length of a row
 
-    /// Delay from the rear axle leaving a row to its output, at most; and the minimum duration of
-    /// data beyond the row that its estimate uses.
+    /// Maximum delay between the rear axle leaving a row and its output, and minimum duration of
+    /// the data beyond the row on which its estimate rests.
     double max_later_s = 1.8;
     double min_later_s = 1.1;
 };

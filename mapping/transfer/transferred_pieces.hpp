@@ -17,7 +17,7 @@ struct CarriedPiece {
     double t_ms;      ///< at the midpoint of the interval
 };
 
-/// In order of time, for each chunk of the new network.
+/// Intervals on one chunk of the new network, in order of time.
 using ChunkPieces = std::vector<CarriedPiece>;
 
 /// The intervals of one drive over a new chunk, in order of time.
