@@ -169,6 +169,57 @@ std::vector<std::string> in_present_spelling(std::span<const Option> options,
     return words;
 }
 
+/// Parses the values of options into `values`. \returns the operands.
+std::vector<std::string>
+parsed(std::span<const Option> options,
+       std::span<const Operand> operands,
+       const std::vector<std::string>& words,
+       std::map<std::string, std::vector<std::string>, std::less<>>& values) {
+    CLI::App parser;
+    parser.set_help_flag();
+    add_options(parser, options, values);
+    // A single list holds all operands: CLI11 would let the first of several take every word.
+    std::vector<std::string> given;
+    if (!operands.empty()) {
+        const bool is_required = !std::ranges::all_of(operands, &Operand::optional);
+        parser.add_option("operands", given)->required(is_required)->expected(1, -1);
+    }
+    try {
+        parser.parse(std::vector<std::string>{words.rbegin(),
+                                              words.rend()}); // CLI11 takes words from the back
+    } catch (const CLI::RequiredError&) {
+        given.clear(); // distribute() reports the missing operand
+    } catch (const CLI::ExtrasError&) {
+        refuse_extras(options, words, parser.remaining());
+    } catch (const CLI::ParseError& error) {
+        throw UsageError{error.what()};
+    }
+    return given;
+}
+
+bool is_short_of(std::span<const Operand> operands, const std::vector<std::string>& given) {
+    const auto required = std::ranges::count_if(operands, [](const Operand& operand) {
+        return !operand.optional && operand.fallback.empty();
+    });
+    return std::ssize(given) < required;
+}
+
+/// Takes a word from an option whose value may be left out, and puts it before the option, as an
+/// operand: `query --excel roads.gpkg`. \returns whether there is such a word.
+bool give_back_word(std::span<const Option> options, std::vector<std::string>& words) {
+    const auto takes_word = [&](const std::string& word, const std::string& next) {
+        return !next.starts_with('-') && std::ranges::any_of(options, [&](const Option& option) {
+            return option.value.starts_with('[') && long_name(option) == word;
+        });
+    };
+    const auto found = std::ranges::adjacent_find(words, takes_word);
+    if (found == words.end()) {
+        return false;
+    }
+    std::iter_swap(found, std::next(found));
+    return true;
+}
+
 /// Replaces the values of options with choices by the choices themselves, whatever their case.
 void adopt_choices(std::span<const Option> options,
                    std::map<std::string, std::vector<std::string>, std::less<>>& words) {
@@ -218,24 +269,10 @@ Arguments::Arguments(std::span<const Option> options,
                      std::vector<std::string> words) {
     words = in_present_spelling(options, std::move(words), notes_);
     expect_flags_alone(options, words);
-    CLI::App parser;
-    parser.set_help_flag();
-    add_options(parser, options, words_);
-    // A single list holds all operands: CLI11 would let the first of several take every word.
-    std::vector<std::string> given;
-    if (!operands.empty()) {
-        const bool is_required = !std::ranges::all_of(operands, &Operand::optional);
-        parser.add_option("operands", given)->required(is_required)->expected(1, -1);
-    }
-    try {
-        parser.parse(std::vector<std::string>{words.rbegin(),
-                                              words.rend()}); // CLI11 takes words from the back
-    } catch (const CLI::RequiredError&) {
-        given.clear(); // distribute() reports the missing operand
-    } catch (const CLI::ExtrasError&) {
-        refuse_extras(options, words, parser.remaining());
-    } catch (const CLI::ParseError& error) {
-        throw UsageError{error.what()};
+    auto given = parsed(options, operands, words, words_);
+    while (is_short_of(operands, given) && give_back_word(options, words)) {
+        words_.clear();
+        given = parsed(options, operands, words, words_);
     }
     distribute(options, operands, words, given, words_);
     adopt_choices(options, words_);

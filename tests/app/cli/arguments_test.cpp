@@ -62,6 +62,23 @@ TEST(Arguments, LeaveTheOperandToItselfAfterAListOfValues) {
     EXPECT_EQ(arguments.operand("STORE"), "store.gpkg");
 }
 
+TEST(Arguments, LeaveTheOperandsToThemselvesBesideAValueThatMayBeLeftOut) {
+    constexpr std::array excel{Option{"--excel", "[LOCALE]", "For Excel."}};
+    constexpr std::array two{Operand{"A", "One."}, Operand{"B", "Another."}};
+    const auto parse_two = [&](std::vector<std::string> words) {
+        const Arguments arguments{excel, two, std::move(words)};
+        return arguments.operand("A") + " " + arguments.operand("B") + " " +
+               arguments.value("--excel").value_or("(no --excel)");
+    };
+    EXPECT_EQ(parse_two({"--excel", "a", "b"}), "a b ");
+    EXPECT_EQ(parse_two({"a", "--excel", "b"}), "a b ");
+    EXPECT_EQ(parse_two({"a", "b", "--excel"}), "a b ");
+    EXPECT_EQ(parse_two({"--excel", "de", "a", "b"}), "a b de");
+    EXPECT_EQ(parse_two({"a", "--excel=de", "b"}), "a b de");
+    EXPECT_EQ(parse_two({"a", "b", "--excel", "de"}), "a b de");
+    EXPECT_THROW(parse_two({"--excel", "a"}), UsageError);
+}
+
 TEST(Arguments, RefuseWhatTheTableDoesNotKnow) {
     EXPECT_THAT(refusal({"a.gpkg", "--fast"}), HasSubstr("--fast"));
     EXPECT_THAT(refusal({"a.gpkg", "b.gpkg"}), HasSubstr("b.gpkg"));
