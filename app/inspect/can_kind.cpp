@@ -128,9 +128,18 @@ FileKind kind_of_mdf(const std::filesystem::path& file) {
     while (const auto count = bytes->read(block)) {
         content.append(block.data(), count);
     }
+    const auto channels = mdf_channels(content, file.string());
+    const bool has_frames = std::ranges::any_of(
+        channels, [](const std::string& name) { return name.ends_with(can_frame_id); });
+    if (has_frames) {
+        return {
+            FileKind::Use::other,
+            "measurement file (ASAM MDF 4): raw frames of a CAN bus",
+            "read with --mapping FILE.toml, whose table [mdf] names the description of the car's "
+            "signals (dbc = \"car.dbc\"; docs/reference/other-loggers.md)"};
+    }
     return {FileKind::Use::other,
-            "measurement file (ASAM MDF 4), " +
-                some_of(mdf_channels(content, file.string()), "channel"),
+            "measurement file (ASAM MDF 4), " + some_of(channels, "channel"),
             "read with --mapping FILE.toml, which has a table [mdf] and names the channels to take "
             "(docs/reference/other-loggers.md)"};
 }

@@ -214,7 +214,7 @@ std::string trip_id_of(const TripSource& source) {
                                      ".h5",
                                      ".hdf5"}) {
         if (name.ends_with(suffix) && name != suffix) {
-            name.resize(name.size() - std::string_view{suffix}.size());
+            name.erase(name.size() - std::string_view{suffix}.size());
         }
     }
     return name;
@@ -268,7 +268,10 @@ read_foreign_trip(const TripSource& source, const TripNeeds& needs, const std::s
             collector.add(read_hdf5(text_of_file(source, file), table, name), false, stop);
             break;
         case LogFormat::mdf:
-            collector.add(read_mdf(text_of_file(source, file), table, name), false, stop);
+            collector.add(
+                (table.dbc ? read_mdf_frames : read_mdf)(text_of_file(source, file), table, name),
+                false,
+                stop);
             break;
         }
     }

@@ -281,9 +281,8 @@ Answer joined_trip(std::string_view input) {
                 read_all_of([&] { return testing::find_trips(folder / "a.trip.csv"); }));
 }
 
-Answer can_log(std::string_view input) {
-    static constexpr std::array<std::string_view, 4> names{
-        "mapping.toml", "car.dbc", "a.log", "a.asc"};
+/// Reads a folder with a mapping and the logs that it is for.
+Answer read_mapped_folder(std::span<const std::string_view> names, std::string_view input) {
     const auto folder = input_folder(names, input);
     auto answer = Answer::refused;
     may_refuse([&] {
@@ -294,8 +293,15 @@ Answer can_log(std::string_view input) {
     return answer;
 }
 
+Answer can_log(std::string_view input) {
+    static constexpr std::array<std::string_view, 4> names{
+        "mapping.toml", "car.dbc", "a.log", "a.asc"};
+    return read_mapped_folder(names, input);
+}
+
 Answer mdf(std::string_view input) {
-    return read_by_own_mapping(input, "a.mf4");
+    static constexpr std::array<std::string_view, 3> names{"mapping.toml", "car.dbc", "a.mf4"};
+    return read_mapped_folder(names, input);
 }
 
 Answer hdf5(std::string_view input) {

@@ -30,7 +30,6 @@ constexpr std::array<std::string_view, 4> dataset_time_keys{"format", "scale", "
 constexpr std::array<std::string_view, 1> hdf5_keys{"times"};
 constexpr std::array<std::string_view, 2> signal_time_keys{"utc_offset_h", "shift_s"};
 constexpr std::array<std::string_view, 2> can_keys{"dbc", "bus"};
-constexpr std::array<std::string_view, 0> no_keys{};
 
 /// Column of a dataset, and the dataset with its times.
 void take_dataset(const TomlTable& table, const std::string& times, ChannelMapping& mapped) {
@@ -91,6 +90,18 @@ signal_of(const TomlTable& channels, const std::string& name, const TableMapping
     return mapped;
 }
 
+/// Bus of a log of frames, and its DBC file.
+void take_bus(const TomlTable& table, const std::filesystem::path& folder, TableMapping& mapping) {
+    table.expect_only(can_keys);
+    if (!table.has("dbc")) {
+        table.miss("dbc");
+    }
+    const auto file = folder / table.text("dbc");
+    mapping.dbc_name = file.string();
+    mapping.dbc = std::make_shared<const Dbc>(read_dbc(file));
+    mapping.bus = table.maybe_text("bus").value_or("");
+}
+
 /// Unit and epoch of the times of datasets.
 TimeMapping dataset_time_of(const TomlTable& table) {
     static constexpr std::pair<std::string_view, double> formats[] = {
@@ -123,19 +134,14 @@ TableMapping signal_table_of(const TomlTable& table, const std::filesystem::path
     std::string times;
     mapping.axes = table.has("axes") ? axes_of(table) : mapping.axes;
     if (can) {
-        can->expect_only(can_keys);
-        if (!can->has("dbc")) {
-            can->miss("dbc");
-        }
-        const auto file = folder / can->text("dbc");
-        mapping.dbc_name = file.string();
-        mapping.dbc = std::make_shared<const Dbc>(read_dbc(file));
-        mapping.bus = can->maybe_text("bus").value_or("");
+        take_bus(*can, folder, mapping);
     } else if (hdf5) {
         hdf5->expect_only(hdf5_keys);
         times = hdf5->maybe_text("times").value_or("");
+    } else if (const auto mdf = table.table("mdf"); mdf->has("dbc") || mdf->has("bus")) {
+        take_bus(*mdf, folder, mapping);
     } else {
-        table.table("mdf")->expect_only(no_keys);
+        mdf->expect_only(can_keys);
     }
     if (const auto time = table.table("time"); time && hdf5) {
         mapping.time = dataset_time_of(*time);

@@ -138,8 +138,8 @@ void MdfBlocks::each_data(std::uint64_t at,
     if (at == 0) {
         return;
     }
-    const auto first = block(at, "DTDZDLHL");
-    if (first.id == "DT") {
+    const auto first = block(at, "DTSDDZDLHL");
+    if (first.id == "DT" || first.id == "SD") {
         take_once(at);
         take(first.data);
     } else if (first.id == "DZ") {
@@ -153,12 +153,12 @@ void MdfBlocks::each_data(std::uint64_t at,
         for (const auto& list : chain(at, "DL")) {
             for (std::size_t i = 1; i < list.link_count(); ++i) {
                 if (list.link(i) != 0) {
-                    const auto part = block(list.link(i), "DTDZ");
+                    const auto part = block(list.link(i), "DTSDDZ");
                     take_once(part.at);
-                    if (part.id == "DT") {
-                        take(part.data);
-                    } else {
+                    if (part.id == "DZ") {
                         take(unzipped(part));
+                    } else {
+                        take(part.data);
                     }
                 }
             }
@@ -175,7 +175,7 @@ std::string MdfBlocks::unzipped(const MdfBlock& block) const {
     const auto columns = block.number<std::uint32_t>(4);
     const auto whole = block.number<std::uint64_t>(8);
     const auto zipped = block.number<std::uint64_t>(16);
-    if (kind != "DT" || zip_type > 1 || block.data.size() < head ||
+    if ((kind != "DT" && kind != "SD") || zip_type > 1 || block.data.size() < head ||
         zipped > block.data.size() - head) {
         refuse(block.at, "a compressed block of an unknown kind, or truncated");
     }

@@ -47,8 +47,9 @@ public:
     /// Text of a TX block, or of the element TX of an MD block; "" for link 0.
     std::string text(std::uint64_t at) const;
 
-    /// Passes on the data at a link, block by block: DT, DZ (deflated), and lists of these. Data
-    /// that expand beyond the limits of compressed files (docs/reference/trip-logs.md) are refused.
+    /// Passes on the data at a link, block by block: DT, SD, DZ (deflated), and lists of these.
+    /// Data that expand beyond the limits of compressed files (docs/reference/trip-logs.md) are
+    /// refused.
     void each_data(std::uint64_t at, const std::function<void(std::string_view)>& take) const;
 
     [[noreturn]] void refuse(std::uint64_t at, std::string_view words) const;

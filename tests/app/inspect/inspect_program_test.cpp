@@ -144,6 +144,9 @@ TEST(Inspect, ListsTheChannelsOfMdfAndShowsWhatAMappingGives) {
     const auto mdf = (source / "tests/data/mdf/drive.mf4").string();
     EXPECT_THAT(run_macadam({"inspect", mdf}).out,
                 HasSubstr("measurement file (ASAM MDF 4), 9 channels: IMU.Acc, IMU.AccX [m/s^2]"));
+    EXPECT_THAT(run_macadam({"inspect", (source / "tests/data/mdf/frames.mf4").string()}).out,
+                AllOf(HasSubstr("measurement file (ASAM MDF 4): raw frames of a CAN bus"),
+                      HasSubstr("dbc = \"car.dbc\"")));
     const auto mapping = (fresh_folder() / "car.toml").string();
     write_file(mapping, "[mdf]\n[channels]\nacc_z_mps2 = {signal = \"AccZ\"}\n");
     const auto run = run_macadam({"inspect", mdf, "--mapping", mapping});

@@ -1,4 +1,5 @@
-"""Writes drive.mf4: 6 s of sample_data/gyor/gyor_q3_00.trip.csv as an ASAM MDF 4.10 file.
+"""Writes drive.mf4, 6 s of sample_data/gyor/gyor_q3_00.trip.csv as an ASAM MDF 4.10 file, and frames.mf4, the frames of
+tests/data/can/drive.log as a bus logger writes them.
 
     make_mf4.py ROOT
 
@@ -6,6 +7,9 @@ Written after ASAM MDF 4.1.0, "Programmers guide", chapter 5, with the standard 
 sorted, in a header list of a data list of deflated blocks: plain, transposed, and one that is not deflated; records
 lie over the ends of blocks. Data group 2 is unsorted: a group with big endian floats and virtual master, one of
 variable length, one with positions.
+
+frames.mf4 ("Bus logging", chapter 4) has the frames in three data groups by turns: with data of a maximum length, of
+variable length in a block, and, unsorted, of variable length in a group of their own; and a group of error frames.
 """
 
 import csv
@@ -40,12 +44,13 @@ class File:
     def linear(self, offset, factor):
         return self.put(b"CC", [0, 0, 0, 0], struct.pack("<BBHHHdddd", 1, 0, 0, 0, 2, 0, 0, offset, factor))
 
-    def channel(self, name, unit, kind, data_type, byte, bits, conversion=0, invalid=None, bit=0, parts=0):
+    def channel(self, name, unit, kind, data_type, byte, bits, conversion=0, invalid=None, bit=0, parts=0,
+                values=0):
         """kind: 0 value, 1 variable length, 2 master, 3 virtual master"""
         sync = 1 if kind in (2, 3) else 0
         data = struct.pack("<BBBBIIIIBBHdddddd", kind, sync, data_type, bit, byte, bits,
                            0 if invalid is None else 2, invalid or 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
-        return self.put(b"CN", [0, parts, self.text(name), 0, conversion, 0, self.text(unit) if unit else 0, 0], data)
+        return self.put(b"CN", [0, parts, self.text(name), 0, conversion, values, self.text(unit) if unit else 0, 0], data)
 
     def group(self, name, record_id, count, channels, data_bytes, invalid_bytes=0, flags=0):
         for before, after in zip(channels, channels[1:]):
@@ -71,8 +76,81 @@ def rows(root):
     return [row for row in all_rows if FROM_S <= row["t_s"] < TO_S]
 
 
+def frames_of(root):
+    """Time since the start, bus, identifier, whether it has 29 bits, data."""
+    for line in (root / "tests/data/can/drive.log").read_text().splitlines():
+        time, bus, frame = line.split()[:3]
+        identifier, data = frame.split("#", 1)
+        if data.startswith("#"):
+            data = data[2:]  # flags of CAN FD
+        yield (float(time[1:-1]) - START_NS / 1e9, int(bus[3:]) + 1, int(identifier, 16), len(identifier) == 8,
+               bytes.fromhex(data.split("_")[0]))
+
+
+def frame_channels(file, kind, at, bits, values=0, with_length=True):
+    """Channels of frames: time, and the members of CAN_DataFrame as its parts."""
+    parts = [file.channel("CAN_DataFrame.BusChannel", "", 0, 0, 8, 8),
+             file.channel("CAN_DataFrame.ID", "", 0, 0, 9, 29),
+             file.channel("CAN_DataFrame.IDE", "", 0, 0, 12, 1, bit=7),
+             file.channel("CAN_DataFrame.DataBytes", "", kind, 10, at, bits, values=values)]
+    if with_length:
+        parts.append(file.channel("CAN_DataFrame.DataLength", "", 0, 0, 13, 8))
+        file.link(parts[3], 5, parts[4] if kind == 5 else values)
+    for before, after in zip(parts, parts[1:]):
+        file.link(before, 0, after)
+    return [file.channel("Timestamp", "s", 2, 4, 0, 64),
+            file.channel("CAN_DataFrame", "", 0, 10, 8, 8 * (at + bits // 8 - 8), parts=parts[0])]
+
+
+def frame_head(frame):
+    time, bus, identifier, is_extended, data = frame
+    return struct.pack("<dBIB", time, bus, identifier | (1 << 31 if is_extended else 0), len(data))
+
+
+def write_frames(root):
+    bus_event = 2 | 4
+    frames = list(frames_of(root))
+    file = File()
+    head = file.put(b"HD", [0] * 6, struct.pack("<QhhBBBBdd", START_NS, 60, 0, 2, 0, 0, 0, 0, 0))
+
+    part = frames[0::3]
+    group = file.group("CAN", 0, len(part), frame_channels(file, 5, 14, 256), 46, flags=bus_event)
+    data = b"".join(frame_head(frame) + frame[4].ljust(32, b"\xaa") for frame in part)
+    first = file.put(b"DG", [0, group, file.put(b"DT", [], data), 0], bytes(8))
+
+    part = frames[1::3]
+    values, data = b"", b""
+    for frame in part:
+        data += frame_head(frame) + struct.pack("<Q", len(values))
+        values += struct.pack("<I", len(frame[4])) + frame[4]
+    group = file.group("CAN", 0, len(part), frame_channels(file, 1, 14, 64, file.put(b"SD", [], values)), 22,
+                       flags=bus_event)
+    second = file.put(b"DG", [0, group, file.put(b"DT", [], data), 0], bytes(8))
+
+    part = frames[2::3]
+    values = file.group("", 2, len(part), [], 0, flags=1)
+    group = file.group("CAN", 1, len(part), frame_channels(file, 1, 14, 64, values, with_length=False), 22,
+                       flags=bus_event)
+    errors = file.group("CAN", 3, 1, [file.channel("Timestamp", "s", 2, 4, 0, 64),
+                                      file.channel("CAN_ErrorFrame.ErrorType", "", 0, 0, 8, 8)], 9, flags=bus_event)
+    file.link(values, 0, group)
+    file.link(group, 0, errors)
+    data, place = struct.pack("<BdB", 3, 0.5, 1), 0
+    for frame in part:
+        data += b"\1" + frame_head(frame) + struct.pack("<Q", place)
+        data += b"\2" + struct.pack("<I", len(frame[4])) + frame[4]
+        place += 4 + len(frame[4])
+    third = file.put(b"DG", [0, values, file.put(b"DT", [], data), 0], bytes([1]) + bytes(7))
+
+    file.link(head, 0, first)
+    file.link(first, 0, second)
+    file.link(second, 0, third)
+    (root / "tests/data/mdf/frames.mf4").write_bytes(file.bytes)
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
+    write_frames(root)
     data = rows(root)
     file = File()
     head = file.put(b"HD", [0] * 6, struct.pack("<QhhBBBBdd", START_NS, 60, 0, 2, 0, 0, 0, 0, 0))

@@ -18,6 +18,7 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
@@ -122,6 +123,62 @@ TEST(Mdf, RefusesWhatIsDamagedOrOfAnotherVersion) {
     auto no_deflate = content;
     no_deflate[content.find("DT", content.find("##DZ")) + 30] ^= 0x55;
     EXPECT_THAT(refusal(no_deflate), HasSubstr("compressed data are damaged"));
+}
+
+const fs::path frames = root / "tests/data/mdf/frames.mf4";
+
+const std::string signals = "acc_x_mps2 = {signal = \"ESP_Inertia.LongitudinalAcc\"}\n"
+                            "acc_z_mps2 = {signal = \"VerticalAcc\"}\n"
+                            "speed_mps = {signal = \"WheelBasedVehicleSpeed\"}\n" // 29 bits
+                            "lat_deg = {signal = \"Latitude\"}\n"
+                            "lon_deg = {signal = \"Longitude\"}\n";
+
+/// Mapping of the frames of a bus: `format` is "can" or "mdf".
+std::shared_ptr<const TripMapping> mapping_of_bus(const std::string& format,
+                                                  const std::string& bus = "") {
+    const auto dbc = (root / "tests/data/can/car.dbc").string();
+    const auto of_bus = bus.empty() ? "" : fmt::format("bus = \"{}\"\n", bus);
+    return std::make_shared<const TripMapping>(parse_mapping(
+        fmt::format(
+            "files = \"*\"\n[{}]\ndbc = \"{}\"\n{}[channels]\n{}", format, dbc, of_bus, signals),
+        "car.toml"));
+}
+
+TEST(Mdf, GivesTheDriveOfRawFramesAsACandumpLogOfThemDoes) {
+    const auto text = read(root / "tests/data/can/drive.log", mapping_of_bus("can"));
+    const auto trip = read(frames, mapping_of_bus("mdf"));
+    ASSERT_GT(text.acc.t_s.size(), 500U);
+    EXPECT_EQ(trip.acc.z, text.acc.z);
+    EXPECT_EQ(trip.speed.speed_mps, text.speed.speed_mps);
+    ASSERT_THAT(trip.acc.t_s, SizeIs(text.acc.t_s.size()));
+    EXPECT_NEAR(trip.acc.t_s.back(), text.acc.t_s.back(), 2e-6);
+    ASSERT_THAT(trip.fixes, SizeIs(text.fixes.size()));
+    EXPECT_EQ(trip.fixes.back().at.lat_deg, text.fixes.back().at.lat_deg);
+    EXPECT_NEAR(*trip.meta.t0_utc_s, *text.meta.t0_utc_s, 2e-6);
+    EXPECT_EQ(trip.rows.size(), text.rows.size());
+    EXPECT_THAT(read(frames, mapping_of_bus("mdf", "1")).acc.t_s, SizeIs(text.acc.t_s.size()));
+}
+
+TEST(Mdf, SaysWhatRawFramesLack) {
+    EXPECT_THAT(refusal(content_of(frames), "acc_z_mps2 = {signal = \"VerticalAcc\"}\n"),
+                HasSubstr("has no channel 'VerticalAcc'; it holds frames of a CAN bus, expected a "
+                          "DBC file that describes their signals: [mdf] dbc = \"car.dbc\""));
+    EXPECT_THAT(refusal_of([] { read(drive, mapping_of_bus("mdf")); }),
+                HasSubstr("has no channel CAN_DataFrame.ID, expected frames of a CAN bus"));
+    EXPECT_THAT(refusal_of([] { read(frames, mapping_of_bus("mdf", "7")); }),
+                AllOf(HasSubstr("frames, none of them with a mapped signal"),
+                      HasSubstr("car.dbc describes")));
+    EXPECT_THAT(refusal_of([] { parse_mapping("[mdf]\nbus = \"1\"\n[channels]\n", "car.toml"); }),
+                HasSubstr("dbc"));
+}
+
+TEST(Mdf, LeavesOutFramesWhoseDataLieElsewhere) {
+    auto content = content_of(frames);
+    const auto values = content.find("##SD");
+    content[values + 24] = 'x'; // the first length
+    content[values + 27] = 'x';
+    const auto file = written(test_folder(), "a.mf4", content);
+    EXPECT_GT(read(file, mapping_of_bus("mdf")).acc.t_s.size(), 500U);
 }
 
 TEST(Mdf, EndsWhereLinksGoInACircle) {
