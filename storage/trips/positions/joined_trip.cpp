@@ -89,6 +89,27 @@ ClockOffset found_offset(const TripLog& log,
     return *search.found;
 }
 
+/// Compares stated times with the motion. \returns a doubt as the end of a sentence; "" if they
+/// agree or the motion does not tell.
+std::string doubt_about(double stated_s,
+                        const TripLog& log,
+                        const TripLog& positions,
+                        const std::stop_token& stop) {
+    constexpr double tolerated_s = 3; // delays of receivers and of logging
+    const auto found = find_clock_offset(log, positions.fixes, stop).found;
+    const double later_s = found ? found->offset_s - stated_s : 0;
+    if (std::abs(later_s) <= tolerated_s) {
+        return "";
+    }
+    return fmt::format(
+        "; but speeds and turns fit best with the positions {:.1f} s {} (within {:.1f} "
+        "s): one of the clocks is likely wrong; leave t0_utc out of the log to join "
+        "them by speeds and turns",
+        std::abs(later_s),
+        later_s > 0 ? "later" : "earlier",
+        2 * found->sd_s);
+}
+
 } // namespace
 
 TripLog joined_trip(TripLog log,
@@ -106,7 +127,9 @@ TripLog joined_trip(TripLog log,
         expect_overlap(log, positions, file);
         offset.offset_s = *positions.meta.t0_utc_s - *log.meta.t0_utc_s;
         log.meta.other[positions_key] =
-            fmt::format("positions of {}, joined by the times that both state", name);
+            fmt::format("positions of {}, joined by the times that both state{}",
+                        name,
+                        doubt_about(offset.offset_s, log, positions, stop));
     } else {
         offset = found_offset(log, positions, file, stop);
         log.meta.other[positions_key] =

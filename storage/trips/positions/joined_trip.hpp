@@ -12,9 +12,9 @@ namespace macadam {
 inline constexpr const char* positions_key = "positions";
 
 /// Joins the positions of a receiver's recording to a log. If both state their times in UTC, these
-/// are taken; otherwise the offset between the clocks is found (find_clock_offset), and a date that
-/// only the positions have becomes that of the log. The rows of the positions follow those of the
-/// log.
+/// are taken, with a doubt in `positions_key` if speeds and turns tell otherwise; otherwise the
+/// offset between the clocks is found (find_clock_offset), and a date that only the positions have
+/// becomes that of the log. The rows of the positions follow those of the log.
 ///
 /// \param log        read with needs_beside_positions (trip_source.hpp)
 /// \param file       name of the file with the positions, for messages

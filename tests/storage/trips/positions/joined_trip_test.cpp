@@ -17,6 +17,8 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
@@ -169,7 +171,23 @@ TEST(JoinedTrip, TakesTheTimesThatBothState) {
     ASSERT_THAT(trip.fixes, SizeIs(125));
     EXPECT_NEAR(trip.fixes[0].t_s, 3.514, 1e-6);
     EXPECT_FALSE(trip.meta.gnss_latency_stated);
-    EXPECT_THAT(trip.meta.other.at(positions_key), HasSubstr("the times that both state"));
+    EXPECT_THAT(trip.meta.other.at(positions_key), EndsWith("the times that both state"));
+}
+
+TEST(JoinedTrip, DoubtsStatedTimesWhereTheMotionTellsOtherwise) {
+    for (const double wrong_s : {-18.0, 18.0}) { // GPS time taken for UTC
+        auto log = wandering(5, 150);
+        TripLog positions;
+        positions.fixes = log.fixes;
+        log.fixes.clear();
+        log.meta.t0_utc_s = 1772352000;
+        positions.meta.t0_utc_s = *log.meta.t0_utc_s + wrong_s;
+        const auto joined = joined_trip(log, positions, everything, "p.gpx", {});
+        EXPECT_NEAR(joined.fixes.front().t_s, wrong_s, 1e-6); // as stated, but not in silence
+        EXPECT_THAT(joined.meta.other.at(positions_key),
+                    AllOf(HasSubstr(wrong_s > 0 ? "18.0 s earlier" : "18.0 s later"),
+                          HasSubstr("one of the clocks is likely wrong; leave t0_utc out")));
+    }
 }
 
 TEST(JoinedTrip, RefusesPositionsOfAnotherDay) {
