@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace macadam {
@@ -18,12 +19,34 @@ namespace {
 /// Verdict on each segment that was measured; `std::nullopt` where it is not comparable.
 using Verdicts = std::map<SegmentKey, std::optional<Verdict>>;
 
-std::vector<SegmentRecord>
-states_in(const StoreReader& store, SegmentFilter filter, const Period& period) {
+/// Segments to compare; `std::nullopt`: all.
+using Selected = std::optional<std::set<SegmentKey>>;
+
+std::vector<SegmentRecord> states_in(const StoreReader& store,
+                                     SegmentFilter filter,
+                                     const Period& period,
+                                     const Selected& selected) {
     filter.period = period;
     std::vector<SegmentRecord> records;
-    store.visit(filter, [&](const SegmentRecord& record) { records.push_back(record); });
+    store.visit(filter, [&](const SegmentRecord& record) {
+        if (!selected || selected->contains(record.segment.key)) {
+            records.push_back(record);
+        }
+    });
     return records;
+}
+
+/// Removes the minimum numbers of passes and cars from a filter. \returns the segments that have
+/// them over the whole period, before and since together.
+Selected take_out_minima(const StoreReader& store, SegmentFilter& filter) {
+    if (filter.min_passes == 0 && filter.min_vehicles == 0) {
+        return std::nullopt;
+    }
+    std::set<SegmentKey> keys;
+    store.visit(filter, [&](const SegmentRecord& record) { keys.insert(record.segment.key); });
+    filter.min_passes = 0;
+    filter.min_vehicles = 0;
+    return keys;
 }
 
 Verdicts verdicts_of(const ComparedStates& states) {
@@ -67,8 +90,9 @@ ComparedStates compare_since(const StoreReader& store,
                              SegmentFilter filter,
                              std::int64_t since_ms) {
     const auto whole = filter.period.value_or(Period{});
-    ComparedStates states{.before = states_in(store, filter, {whole.from_ms, since_ms}),
-                          .since = states_in(store, filter, {since_ms, whole.until_ms}),
+    const auto selected = take_out_minima(store, filter);
+    ComparedStates states{.before = states_in(store, filter, {whole.from_ms, since_ms}, selected),
+                          .since = states_in(store, filter, {since_ms, whole.until_ms}, selected),
                           .change = {}};
     states.change = change_since(roads, states.before, states.since, {});
     return states;

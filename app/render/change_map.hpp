@@ -16,7 +16,8 @@ struct ComparedStates {
     ChangeSince change;
 };
 
-/// Compares the segments of a filter before and since a day, within the filter's period.
+/// Compares the segments of a filter before and since a day, within the filter's period. Its
+/// minimum numbers of passes and cars count both sides together.
 ComparedStates compare_since(const StoreReader& store,
                              const RoadNetwork& roads,
                              SegmentFilter filter,

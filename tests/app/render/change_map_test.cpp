@@ -73,6 +73,16 @@ TEST(ChangeMap, ColoursSegmentsByTheVerdictOnTheirChange) {
     EXPECT_THAT(plan.scene().subtitle, HasSubstr("Dated passes before and since 2026-01-01"));
 }
 
+TEST(ChangeMap, CountsPassesOfBothSidesForTheLeastNumber) {
+    const auto store = StoreReader::open(changed_roads(test_folder()));
+    auto at_least = request();
+    at_least.filter.min_passes = 11; // more than either side has; the segment driven before has 10
+    const auto counts = counts_of(load_change_map(store, at_least, border_ms).scene());
+    EXPECT_EQ(counts[0], 3);
+    EXPECT_EQ(counts[2], 3);
+    EXPECT_EQ(counts[3], 0);
+}
+
 TEST(ChangeMap, ExplainsItsColoursInTheLegend) {
     const auto store = StoreReader::open(changed_roads(test_folder()));
     const auto plan = load_change_map(store, request(), border_ms);
