@@ -35,6 +35,19 @@ void tell_publication(const StoreReader& store, const Console& console) {
                                           store.file().string()));
 }
 
+bool can_show_events(const StoreReader& store,
+                     const SegmentFilter& filter,
+                     const Console& console) {
+    if (filter.period && store.shows_published_alone()) {
+        console.warn(fmt::format("{}: potholes and other events are left out: a crowd database "
+                                 "publishes them without months; omit --since and --until to "
+                                 "show them",
+                                 store.file().string()));
+        return false;
+    }
+    return true;
+}
+
 StoreReader open_for_operator(const std::filesystem::path& file, const Console& console) {
     auto store = opened_reader(file, console, Audience::operator_);
     if (store.settings().privacy == PrivacyProfile::crowd && !store.shows_published_alone()) {

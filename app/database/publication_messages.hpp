@@ -16,6 +16,10 @@ std::string words_for(const Publication& publication);
 /// Tells readers of a crowd database the latest publication, or that there is none.
 void tell_publication(const StoreReader& store, const Console& console);
 
+/// Tests whether a map or report can show the events of a selection. Warns if not: a crowd database
+/// publishes them without months, so that no period selects among them.
+bool can_show_events(const StoreReader& store, const SegmentFilter& filter, const Console& console);
+
 /// Opens a database for a command that shows its operator more than is published. Says so in that
 /// case, since the output must not be passed on.
 StoreReader open_for_operator(const std::filesystem::path& file, const Console& console);

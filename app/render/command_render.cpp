@@ -116,7 +116,8 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .base = base.map,
                              .width_px = options.output.width_px,
                              .height_px = options.output.height_px,
-                             .events = options.events};
+                             .events =
+                                 options.events && can_show_events(store, options.filter, console)};
     auto plan = options.since_ms ? load_change_map(store, request, *options.since_ms)
                                  : load_map(store, request);
     const auto progress = console.progress("drawing");

@@ -257,6 +257,7 @@ void run_report(const Arguments& arguments, const Console& console) {
         options.report.style.classes = class_table(store.settings().class_table);
     }
     warn_of_look(options.report.style, console);
+    options.report.events = can_show_events(store, options.report.filter, console);
     const auto document =
         report_document(report_of(store, options.report, console.progress("drawing maps")));
     const auto bytes = options.report.pictures == PictureUse::paper ? pdf_of(document, options.pdf)

@@ -228,9 +228,6 @@ std::optional<ReportFewPasses> few_passes_of(const MapScene& map, const ReportCo
 /// Takes the largest events of the database into the report.
 void put_events(const StoreReader& store, const SegmentFilter& filter, Report& report) {
     constexpr std::size_t max_events = 100;
-    if (filter.period && store.shows_published_alone()) {
-        return; // published without months
-    }
     auto records = store.events(filter);
     std::ranges::stable_sort(
         records, std::ranges::greater{}, [](const auto& record) { return record.event.size_um; });
@@ -301,7 +298,9 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     report.lateral_passes = info.lateral_passes;
     report.row_reasons = usage.row_reasons;
 
-    put_events(store, config.filter, report);
+    if (config.events) {
+        put_events(store, config.filter, report);
+    }
 
     const auto change =
         config.since_ms

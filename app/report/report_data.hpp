@@ -19,6 +19,7 @@ struct ReportConfig {
     SegmentFilter filter{};                   ///< segments and passes to report
     std::string selection{};                  ///< the filter in words; "" = none
     std::optional<std::int64_t> since_ms{};   ///< first day of the period checked for changes
+    bool events = true;                       ///< lists potholes and other events
     Localisation wording{};
     PictureUse pictures = PictureUse::screen;
     MapStyle style; ///< style of the maps, with its classes; tables use the same colours

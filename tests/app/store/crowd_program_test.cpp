@@ -118,6 +118,22 @@ TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
     run({"render", store_, "-o", at("map.png"), "--size", "400x300"});
 }
 
+TEST_F(Crowd, LeavesEventsOfAPeriodOutOfMapsAndReportsAlike) {
+    make("crowd");
+    run({"publish", store_});
+    lose_key();
+    const auto month = "2026-03";
+    const auto refused = run({"query", store_, "--events", "--since", month}, 1).err;
+    EXPECT_THAT(refused, HasSubstr("published"));
+    const auto map = run({"render", store_, "-o", at("a.png"), "--events", "--since", month}).err;
+    const auto report = run({"report", store_, "-o", at("a.html"), "--since", month}).err;
+    for (const auto& warned : {map, report}) {
+        EXPECT_THAT(warned,
+                    HasSubstr("potholes and other events are left out: a crowd database publishes "
+                              "them without months"));
+    }
+}
+
 TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
     make("crowd");
     run({"publish", store_});
