@@ -1,9 +1,7 @@
 // `macadam query`, `export --sections` and `info` as users run them, on a small made-up country.
 
 #include "storage/networks/network_file.hpp"
-#include "storage/store/road_store.hpp"
-#include "support/program/program.hpp"
-#include "support/roads/store_world.hpp"
+#include "support/program/road_program.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -23,25 +21,17 @@ using ::testing::SizeIs;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
-class QueryProgram : public ::testing::Test {
+class QueryProgram : public RoadProgram {
 protected:
     void SetUp() override {
-        folder_ = fresh_folder();
-        store_ = (folder_ / "roads.gpkg").string();
-        auto store = new_store(store_);
-        import_trips(store, 6);
+        RoadProgram::SetUp();
+        const auto store = StoreReader::open(store_);
         cache_network(store, small_country());
         store.visit({}, [&](const SegmentRecord& record) { measured_.push_back(record); });
     }
 
-    std::string file(const std::string& name, const std::string& text) const {
-        write_file(folder_ / name, text);
-        return (folder_ / name).string();
-    }
-
     macadam::testing::Run query(std::vector<std::string> words) const {
-        words.insert(words.begin(), {"query", store_});
-        return run_macadam(words);
+        return run("query", std::move(words));
     }
 
     Json answer(std::vector<std::string> words) const {
@@ -58,8 +48,6 @@ protected:
         return fmt::format("{:.7f},{:.7f}", at.lat_deg, at.lon_deg);
     }
 
-    std::filesystem::path folder_;
-    std::string store_;
     std::vector<SegmentRecord> measured_;
 };
 
