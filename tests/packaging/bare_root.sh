@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # bare_root.sh BUILD FOLDER
 # Makes the .deb of BUILD, installs it into a bare Debian 12 under FOLDER, which has no tools of a
-# build, maps a recorded trip there as an ordinary user, removes the package, and looks for what it
-# left. Needs root and a Debian mirror; a tar of the bare system is kept in FOLDER.
+# build, maps a recorded trip there as an ordinary user, does the same with the package of the Python
+# module, removes both, and looks for what they left. Needs root and a Debian mirror; a tar of the bare system is kept in FOLDER.
 set -euo pipefail
 
 build=$1
@@ -19,6 +19,7 @@ mkdir -p "$folder"
 rm -rf "$folder/packages"
 (cd "$folder" && cpack --config "$build/CPackConfig.cmake" -G DEB -B "$folder/packages" >/dev/null)
 package=$(echo "$folder"/packages/macadam_*.deb)
+python_package=$(echo "$folder"/packages/python3-macadam_*.deb)
 
 if [ ! -f "$folder/base.tar" ]; then
     rm -rf "$folder/base"
@@ -32,6 +33,7 @@ trap 'umount "$root/proc" 2>/dev/null || true; rm -rf "$root"' EXIT
 tar -C "$root" -xf "$folder/base.tar"
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp "$package" "$root/root/macadam.deb"
+cp "$python_package" "$root/root/python3-macadam.deb"
 mount -t proc proc "$root/proc"
 
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
@@ -64,8 +66,23 @@ for output in map.png map.pdf map.tif report.pdf roads.geojson roads.fgb roads.s
     [ -s "$root/home/driver/$output" ] || { echo "bare_root.sh: $output is missing or empty" >&2; exit 1; }
 done
 
-inside apt-get -q -y purge --autoremove macadam
-rm -rf "$root/root/macadam.deb" "$root/home/driver"
+inside apt-get -q -y install --no-install-recommends /root/python3-macadam.deb
+as_user python3 - "$trip" <<'PYTHON'
+import sys
+
+import macadam
+import numpy
+
+profile = 0.005 * numpy.sin(numpy.arange(4000) * 2 * numpy.pi * 0.05 / 6)  # 200 m of waves of 6 m
+assert 5 < macadam.iri(profile, step_m=0.05)["iri"].mean() < 15, macadam.iri(profile, step_m=0.05)
+trace = macadam.trace(sys.argv[1])
+assert len(trace["iri"]) > 10, trace
+with macadam.open("/home/driver/roads.gpkg") as roads:
+    assert len(roads.segments()["segment"]) > 10
+PYTHON
+
+inside apt-get -q -y purge --autoremove python3-macadam macadam
+rm -rf "$root/root/macadam.deb" "$root/root/python3-macadam.deb" "$root/home/driver"
 left=$(find "$root" -xdev -iname '*macadam*' -not -path "$root/var/log/*" -not -path "$root/proc/*")
 [ -z "$left" ] || { echo "bare_root.sh: the package left: $left" >&2; exit 1; }
 diff <(echo "$before") <(packages) || { echo "bare_root.sh: packages were left" >&2; exit 1; }
