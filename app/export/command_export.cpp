@@ -121,8 +121,14 @@ SitePlan parse_site(const ExportOptions& options, const Arguments& arguments) {
                                      "as public/",
                                      output_option(options))};
     }
-    for (const std::string_view refused :
-         {"--all", "--sections", "--events", "--tiles", "--theme", "--style", "--grey-below"}) {
+    for (const std::string_view refused : {"--all",
+                                           "--sections",
+                                           "--events",
+                                           "--tiles",
+                                           "--theme",
+                                           "--style",
+                                           "--grey-below",
+                                           "--units"}) {
         if (arguments.is_given(refused)) {
             throw UsageError{fmt::format("{} and --format site cannot be combined", refused)};
         }
@@ -138,11 +144,12 @@ void expect_fitting(const ExportOptions& options, const Arguments& arguments) {
     if (options.text.excel && suffix != ".csv") {
         throw UsageError{"--excel requires -o FILE.csv; .xlsx needs no such option"};
     }
-    const bool has_units = is_workbook(options) || (is_text_suffix(suffix) && suffix != ".kml");
-    if (options.text.units != UnitSystem::si && !has_units) {
-        throw UsageError{fmt::format("--units us is for .csv, .geojson, .geojsonl and .xlsx, whose "
-                                     "columns then say the unit; {}",
-                                     output_option(options))};
+    if (options.text.units == UnitSystem::us && is_project(options)) {
+        throw UsageError{"--units us and -o FILE.qgz cannot be combined: the project shows the "
+                         "database, which is metric; export a .gpkg with --units us"};
+    }
+    if (options.text.units == UnitSystem::us && arguments.choice("--tiles") == "picture") {
+        throw UsageError{"--units us has no effect on pictures, which show no values"};
     }
     if (arguments.value("--format") && !options.text.put && !is_site(arguments)) {
         throw UsageError{"--format is for -o - and for 'site'; the name of a file tells its "
@@ -162,7 +169,7 @@ std::filesystem::path parse_output(const Arguments& arguments) {
     if (*output != standard_output) {
         return *output;
     }
-    const auto suffix = "." + arguments.choice("--format");
+    const auto suffix = fmt::format(".{}", arguments.choice("--format"));
     if (!is_text_suffix(suffix)) {
         throw UsageError{fmt::format("-o - cannot write {}, which needs a file; expected --format "
                                      "geojson, geojsonl, csv or kml",

@@ -1,5 +1,7 @@
 #include "app/export/tile_export.hpp"
 
+#include "app/output/units_option.hpp"
+
 #include "estimator/common/error.hpp"
 #include "render/tiles/mvt_tile.hpp"
 #include "storage/atomic/atomic_folder.hpp"
@@ -37,14 +39,21 @@ std::optional<std::pair<int, int>> zooms_in(const std::string& text) {
     return fits ? std::optional{std::pair{least, most}} : std::nullopt;
 }
 
+bool is_us(const TilePlan& plan) {
+    return plan.units == TileUnits::us;
+}
+
 TileLayer layer_of(const TilePlan& plan, const ClassTable& classes) {
     TileLayer layer{.id = std::string{roughness_layer},
-                    .description = "About 20 m of road in one direction from zoom 14 on, longer "
-                                   "pieces below it; IRI in mm/m",
+                    .description = is_us(plan)
+                                       ? "About 66 ft of road in one direction from zoom 14 on, "
+                                         "longer intervals below it; IRI in in/mi"
+                                       : "About 20 m of road in one direction from zoom 14 on, "
+                                         "longer intervals below it; IRI in mm/m",
                     .min_zoom = plan.min_zoom,
                     .max_zoom = plan.max_zoom,
                     .fields = {}};
-    for (const auto& field : vector_fields(classes)) {
+    for (const auto& field : vector_fields(classes, plan.units)) {
         layer.fields.push_back({field.name, field.is_number ? "Number" : "String"});
     }
     return layer;
@@ -52,7 +61,8 @@ TileLayer layer_of(const TilePlan& plan, const ClassTable& classes) {
 
 TileSetNote note_of(const StoreReader& store, const GeoBox& box, const TilePlan& plan) {
     return {.name = store.file().stem().string(),
-            .description = "Roughness of roads (IRI, mm/m) with what it is known to",
+            .description = fmt::format("Roughness of roads (IRI, {}) with its uncertainty",
+                                       is_us(plan) ? "in/mi" : "mm/m"),
             .attribution = store.settings().attribution,
             .format = TileSetNote::Format::mvt,
             .bounds = box,
@@ -96,6 +106,7 @@ TilePlan parse_tile_plan(const Arguments& arguments) {
         std::tie(plan.min_zoom, plan.max_zoom) = *zooms;
     }
     plan.jobs = jobs_of(arguments);
+    plan.units = parse_units(arguments) == UnitSystem::us ? TileUnits::us : TileUnits::si;
     return plan;
 }
 

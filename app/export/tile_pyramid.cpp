@@ -112,7 +112,7 @@ private:
 
     Level new_level() const { return std::make_unique<PartLevel>(beside_); }
 
-    VectorTileContext context() const { return {&source_.words, &classes_}; }
+    VectorTileContext context() const { return {&source_.words, &classes_, plan_.units}; }
 
     template <typename Work>
     void each(const std::vector<TileId>& tiles, const Work& work) {

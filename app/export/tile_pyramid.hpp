@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "mapping/tiles/tile_features.hpp"
+#include "render/tiles/mvt_tile.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/tiles/tile_buckets.hpp"
 
@@ -21,6 +22,7 @@ struct TilePlan {
     int max_zoom = 16;
     std::size_t jobs = 1;
     std::uint64_t max_bytes = max_tile_bytes;
+    TileUnits units = TileUnits::si;
 };
 
 /// Segments of one version of a database, in buckets for the tiles of zoom 13 that show them.

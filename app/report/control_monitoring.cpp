@@ -73,7 +73,7 @@ Cell day_cell(const std::optional<std::int64_t>& utc_ms) {
     return utc_ms ? Cell{day_of(utc_ms)} : Cell{};
 }
 
-std::string json_of(const std::vector<MonthRow>& months, double known) {
+std::string json_of(const std::vector<MonthRow>& months, double known, UnitSystem units) {
     const Columns<MonthRow> columns{
         {"month", as::text, [](auto& r) { return r.month; }},
         {"iri", as::iri(3), [](auto& r) { return r.road.mean.iri; }},
@@ -81,15 +81,15 @@ std::string json_of(const std::vector<MonthRow>& months, double known) {
         {"difference", as::iri(3), [known](auto& r) { return r.road.mean.iri - known; }},
         {"length_m", as::metres(2), [](auto& r) { return r.road.mean.length_m; }},
         {"vehicles", as::integer, [](auto& r) { return r.road.vehicles; }}};
-    return json_rows(columns, months);
+    return json_rows(in_units(columns, units), months);
 }
 
-Cell json_of(const std::optional<Drift>& drift) {
+Cell json_of(const std::optional<Drift>& drift, UnitSystem units) {
     static const Columns<Drift> columns{
         {"per_year", as::iri(4), [](auto& r) { return r.per_year; }},
         {"sd_per_year", as::iri(4), [](auto& r) { return r.sd_per_year; }},
         {"significant", as::truth, [](auto& r) { return r.significant; }}};
-    return drift ? Cell{json_object(columns, *drift).text()} : Cell{};
+    return drift ? Cell{json_object(in_units(columns, units), *drift).text()} : Cell{};
 }
 
 Cell of_drift(const WatchedSection& watched, double Drift::*value) {
@@ -122,10 +122,6 @@ std::string bias_words(const WatchedSection& watched) {
                              : "";
 }
 
-std::string metres_words(const WatchedSection& watched) {
-    return has_pass(watched) ? fmt::format("{:.0f}", watched.cars.length_m) : "";
-}
-
 std::string drift_words(const WatchedSection& watched) {
     if (!watched.drift) {
         return has_pass(watched) ? fmt::format("too few months ({} of {})",
@@ -140,8 +136,11 @@ std::string drift_words(const WatchedSection& watched) {
                        significant ? ": DRIFTS" : "");
 }
 
+} // namespace
+
 // clang-format off
-const Columns<WatchedSection> of_control_sections{
+Columns<WatchedSection> control_section_columns(UnitSystem units) {
+    return in_units<WatchedSection>({
     {"name", as::text, [](auto& r) { return r.section.name; }, {"control section", "{:<18.18}"}},
     {"way_id", as::integer, [](auto& r) { return r.section.way_id; }},
     {"direction", as::text, [](auto& r) { return r.section.forward ? "forward" : "backward"; }},
@@ -157,20 +156,22 @@ const Columns<WatchedSection> of_control_sections{
     {"difference", as::iri(3), [](auto& r) { return of_cars(r, r.off); }},
     {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -normal_interval_90); }},
     {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, normal_interval_90); }},
-    {"drift", as::json_only(as::raw), [](auto& r) { return json_of(r.drift); }},
+    {"drift", as::json_only(as::raw), [units](auto& r) { return json_of(r.drift, units); }},
     {"drift_per_year", as::csv_only(as::iri(4)),
      [](auto& r) { return of_drift(r, &Drift::per_year); }},
     {"drift_sd_per_year", as::csv_only(as::iri(4)),
      [](auto& r) { return of_drift(r, &Drift::sd_per_year); }},
-    {"", as::text, cars_words, {"cars", " {:>6}"}},
-    {"", as::text, bias_words, {"bias (90 %)", " {:>16}"}},
-    {"", as::text, metres_words, {"metres", " {:>9}"}},
-    {"", as::text, drift_words, {"drift, mm/m (90 %)", "  {}"}},
+    {"", as::numbers_in("mm/m"), cars_words, {"cars", " {:>6}"}},
+    {"", as::numbers_in("mm/m"), bias_words, {"bias (90 %)", " {:>16}"}},
+    {"", as::metres(0), [](auto& r) { return of_cars(r, r.cars.length_m); }, {"metres", " {:>9}"}},
+    {"", as::numbers_in("mm/m"), drift_words, {"drift, mm/m (90 %)", "  {}"}},
     {"months", as::json_only(as::raw),
-     [](auto& r) { return json_of(r.months, r.section.iri_mm_per_m); }},
-};
+     [units](auto& r) { return json_of(r.months, r.section.iri_mm_per_m, units); }},
+    }, units);
+}
 
-const Columns<SurveyUse> of_surveys{
+Columns<SurveyUse> survey_columns(UnitSystem units) {
+    return in_units<SurveyUse>({
     {"name", as::text, [](auto& r) { return r.name; }, {"reference survey", "{:<24.24}"}},
     {"file", as::text, [](auto& r) { return r.file_name; }},
     {"sha256", as::text, [](auto& r) { return r.sha256; }},
@@ -179,7 +180,7 @@ const Columns<SurveyUse> of_surveys{
     {"accuracy", as::real(4), [](auto& r) { return r.relative_sd; }},
     {"", as::text, [](auto& r) { return fmt::format("{:.1f} %", 100 * r.relative_sd); },
      {"accuracy", " {:>8}"}},
-    {"", as::text, [](auto& r) { return fmt::format("{:.0f} m", r.row_m); }, {"rows of", " {:>8}"}},
+    {"", as::text, [units](auto& r) { return length_words(std::round(r.row_m), units); }, {"rows of", " {:>8}"}},
     {"row_m", as::metres(2), [](auto& r) { return r.row_m; }},
     {"rows_read", as::integer, [](auto& r) { return r.rows_read; }},
     {"rows_used", as::integer, [](auto& r) { return r.rows_used; }},
@@ -187,10 +188,9 @@ const Columns<SurveyUse> of_surveys{
     {"km", as::real(3, "km"), [](auto& r) { return r.km; }, {"km", " {:>9}", 2}},
     {"alone_km", as::real(3, "km"), [](auto& r) { return r.alone_km; },
      {"km, no car", " {:>13}", 2}},
-};
+    }, units);
+}
 // clang-format on
-
-} // namespace
 
 std::vector<WatchedSection> watched_sections(const StoreReader& store) {
     std::vector<WatchedSection> all;
@@ -201,14 +201,6 @@ std::vector<WatchedSection> watched_sections(const StoreReader& store) {
         all.push_back(watched(store, section));
     }
     return all;
-}
-
-const Columns<WatchedSection>& control_section_columns() {
-    return of_control_sections;
-}
-
-const Columns<SurveyUse>& survey_columns() {
-    return of_surveys;
 }
 
 } // namespace macadam

@@ -4,6 +4,7 @@
 #include "mapping/surveys/control_section.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/text/columns.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <optional>
 #include <vector>
@@ -26,7 +27,7 @@ struct WatchedSection {
 std::vector<WatchedSection> watched_sections(const StoreReader& store);
 
 /// Columns of control sections, and of the reference surveys of a database.
-const Columns<WatchedSection>& control_section_columns();
-const Columns<SurveyUse>& survey_columns();
+Columns<WatchedSection> control_section_columns(UnitSystem units);
+Columns<SurveyUse> survey_columns(UnitSystem units);
 
 } // namespace macadam

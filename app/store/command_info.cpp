@@ -32,15 +32,17 @@ double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
 }
 
-std::string json_of(const AlignmentSummary& alignment) {
+std::string json_of(const AlignmentSummary& alignment, UnitSystem units) {
+    const bool us = units == UnitSystem::us;
     JsonObject object;
     object.add("drives", alignment.drives)
         .add("found", alignment.found)
         .add("beyond_reach", alignment.beyond_reach)
         .add("moved_far", alignment.moved_far)
-        .add("middle_lag_m",
-             alignment.found > 0 ? json_number(alignment.middle_lag_cm / 100.0, 2)
-                                 : JsonValue{nullptr});
+        .add(us ? "middle_lag_ft" : "middle_lag_m",
+             alignment.found > 0
+                 ? json_number(alignment.middle_lag_cm / 100.0 * (us ? ft_of_m : 1), 2)
+                 : JsonValue{nullptr});
     return object.text();
 }
 
@@ -50,16 +52,20 @@ struct KnownRoads {
     std::vector<WatchedSection> controls;
 };
 
-std::string text_of(const KnownRoads& known) {
+std::string text_of(const KnownRoads& known, UnitSystem units) {
     std::string text;
     if (!known.surveys.empty()) {
-        text.append("\n").append(table_text(survey_columns(), known.surveys));
+        text.append("\n").append(table_text(survey_columns(units), known.surveys));
     }
     if (!known.controls.empty()) {
-        text.append("\n").append(table_text(control_section_columns(), known.controls));
+        text.append("\n").append(table_text(control_section_columns(units), known.controls));
     }
     return text;
 }
+
+const Columns<StoreInfo> length_columns{
+    {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
+    {"network_km", as::real(3, "km"), [](auto& r) { return r.network_km; }}};
 
 /// Formats the report as JSON.
 /// \param truth  JSON; "" = not requested
@@ -68,7 +74,8 @@ std::string json_of(const StoreInfo& info,
                     const KnownRoads& known,
                     bool operates,
                     const std::string& digest,
-                    const std::string& truth) {
+                    const std::string& truth,
+                    UnitSystem units) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
     JsonObject object;
     object.add("trips", whole(info.trips))
@@ -77,19 +84,21 @@ std::string json_of(const StoreInfo& info,
         .add("passes_lateral_alone", whole(info.lateral_passes))
         .add("vehicles", JsonRaw{json_string_array(info.vehicles)})
         .add("segments", whole(info.segments))
-        .add("segments_with_passes", whole(info.segments_with_passes))
-        .add("km", JsonNumber{info.km, 3})
-        .add("network_km", JsonNumber{info.network_km, 3})
-        .add("classes", JsonRaw{class_lengths_json(info.classes, info.km)})
-        .add("laid_on_others", JsonRaw{json_of(info.alignment)});
-    add_to(object, tables);
+        .add("segments_with_passes", whole(info.segments_with_passes));
+    for (const auto& [name, type, value, shown] : in_units(length_columns, units)) {
+        object.add(name, json_value(type, value(info)));
+    }
+    object.add("classes", JsonRaw{class_lengths_json(info.classes, info.km, units)})
+        .add("laid_on_others", JsonRaw{json_of(info.alignment, units)});
+    add_to(object, tables, units);
     object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
     if (info.settings.privacy == PrivacyProfile::crowd) {
         object.add("publication", JsonRaw{json_of(info.publication)})
             .add("published_alone", info.published_alone);
     }
-    object.add("surveys", JsonRaw{json_rows(survey_columns(), known.surveys)})
-        .add("control_sections", JsonRaw{json_rows(control_section_columns(), known.controls)});
+    object.add("surveys", JsonRaw{json_rows(survey_columns(units), known.surveys)})
+        .add("control_sections",
+             JsonRaw{json_rows(control_section_columns(units), known.controls)});
     object.add("generation", std::int64_t{info.generation}).add("digest", digest);
     if (!truth.empty()) {
         object.add("truth", JsonRaw{truth});
@@ -156,7 +165,7 @@ std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
                             "which is far less accurate\n",
                             info.lateral_passes);
     }
-    if (const auto words = alignment_summary_text(info.alignment); !words.empty()) {
+    if (const auto words = alignment_summary_text(info.alignment, units); !words.empty()) {
         text += fmt::format("passes      {}\n", words);
     }
     for (const auto& [name, km] : info.classes) {
@@ -176,16 +185,15 @@ std::string one_table(const StoreReader& store,
         return rows_text(in_units(class_columns(info.km), units), info.classes, format);
     }
     if (name == "surveys") {
-        return rows_text(in_units(survey_columns(), units), store.surveys(), format);
+        return rows_text(survey_columns(units), store.surveys(), format);
     }
     if (name == "control-sections") {
-        return rows_text(
-            in_units(control_section_columns(), units), watched_sections(store), format);
+        return rows_text(control_section_columns(units), watched_sections(store), format);
     }
     const auto tables = info_tables(store);
     return name == "cars" ? rows_text(car_columns(units), tables.cars, format)
            : name == "road-classes"
-               ? rows_text(in_units(road_class_columns(), units), tables.road_classes, format)
+               ? rows_text(road_class_columns(units), tables.road_classes, format)
            : name == "months" ? rows_text(usage_columns("month"), months_of(tables.days), format)
                               : rows_text(usage_columns("day"), tables.days, format);
 }
@@ -211,7 +219,7 @@ void print_info(const StoreReader& store, const Arguments& arguments, const std:
         truth = compared(store, *truth_file);
     }
     if (truth && format == "csv") {
-        print(csv_of(*truth));
+        print(csv_of(*truth, units));
         return;
     }
     const auto info = store.info();
@@ -223,10 +231,11 @@ void print_info(const StoreReader& store, const Arguments& arguments, const std:
                       known,
                       store.is_operator(),
                       store.digest(),
-                      truth ? json_of(*truth) : ""));
+                      truth ? json_of(*truth, units) : "",
+                      units));
     } else {
         print_words(text_of(info, store.is_operator(), units) + text_of(tables, units) +
-                    text_of(known) + (truth ? "\n" + text_of(*truth) : ""));
+                    text_of(known, units) + (truth ? "\n" + text_of(*truth, units) : ""));
     }
 }
 
@@ -251,11 +260,6 @@ void run_info(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const auto format = row_format_of(arguments);
     expect_one_result(arguments, format);
-    if (format == "json" && arguments.choice("--table") == all_tables &&
-        parse_units(arguments) == UnitSystem::us) {
-        throw UsageError{"the JSON of all tables is in SI units; expected --table NAME with "
-                         "--units us"};
-    }
     const auto row_file = row_file_of(arguments);
     if (row_file) {
         refuse_to_replace(*row_file, {file});

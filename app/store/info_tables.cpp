@@ -139,7 +139,8 @@ Columns<CarInfo> of_cars(UnitSystem units) {
     }, units);
 }
 
-const Columns<RoadClassInfo> of_road_classes{
+Columns<RoadClassInfo> of_road_classes(UnitSystem units) {
+    return in_units<RoadClassInfo>({
     {"highway", as::text, [](auto& r) { return r.highway.empty() ? Cell{} : Cell{r.highway}; },
      {"road class", "{:<18}"}},
     {"network_km", as::real(3, "km"), [](auto& r) { return r.network_km; },
@@ -148,8 +149,9 @@ const Columns<RoadClassInfo> of_road_classes{
     {"covered", as::real(4), [](auto& r) { return share(r.km, r.network_km); }},
     {"", as::text, covered_words, {"covered", " {:>8}"}},
     {"classes", as::json_only(as::raw),
-     [](auto& r) { return class_lengths_json(r.classes, r.km); }},
-};
+     [units](auto& r) { return class_lengths_json(r.classes, r.km, units); }},
+    }, units);
+}
 // clang-format on
 
 std::string car_lines(std::span<const CarInfo> cars, UnitSystem units) {
@@ -180,8 +182,8 @@ InfoTables info_tables(const StoreReader& store) {
     return {road_classes_of(store, usage), cars_of(usage), usage.days};
 }
 
-const Columns<RoadClassInfo>& road_class_columns() {
-    return of_road_classes;
+Columns<RoadClassInfo> road_class_columns(UnitSystem units) {
+    return of_road_classes(units);
 }
 
 Columns<CarInfo> car_columns(UnitSystem units) {
@@ -218,18 +220,19 @@ std::vector<DailyUsage> months_of(const std::vector<DailyUsage>& days) {
 }
 
 std::string text_of(const InfoTables& tables, UnitSystem units) {
-    return fmt::format("\n{}", table_text(in_units(of_road_classes, units), tables.road_classes)) +
+    return fmt::format("\n{}", table_text(of_road_classes(units), tables.road_classes)) +
            (tables.cars.empty() ? "" : car_lines(tables.cars, units)) + change_lines(tables.cars) +
            (tables.days.empty() ? "" : month_lines(months_of(tables.days)));
 }
 
-std::string class_lengths_json(const std::vector<ClassLength>& lengths, double km) {
-    return json_rows(class_columns(km), lengths);
+std::string
+class_lengths_json(const std::vector<ClassLength>& lengths, double km, UnitSystem units) {
+    return json_rows(in_units(class_columns(km), units), lengths);
 }
 
-void add_to(JsonObject& object, const InfoTables& tables) {
-    object.add("road_classes", JsonRaw{json_rows(of_road_classes, tables.road_classes)})
-        .add("cars", JsonRaw{json_rows(of_cars(UnitSystem::si), tables.cars)})
+void add_to(JsonObject& object, const InfoTables& tables, UnitSystem units) {
+    object.add("road_classes", JsonRaw{json_rows(of_road_classes(units), tables.road_classes)})
+        .add("cars", JsonRaw{json_rows(of_cars(units), tables.cars)})
         .add("passes_per_month", JsonRaw{json_rows(usage_columns("month"), months_of(tables.days))})
         .add("passes_per_day", JsonRaw{json_rows(usage_columns("day"), tables.days)});
 }

@@ -42,11 +42,12 @@ InfoTables info_tables(const StoreReader& store);
 std::vector<DailyUsage> months_of(const std::vector<DailyUsage>& days);
 
 /// Formats lengths by class as JSON, with their shares of `km`.
-std::string class_lengths_json(const std::vector<ClassLength>& lengths, double km);
+std::string
+class_lengths_json(const std::vector<ClassLength>& lengths, double km, UnitSystem units);
 
 /// \name Columns of these tables
 /// @{
-const Columns<RoadClassInfo>& road_class_columns();
+Columns<RoadClassInfo> road_class_columns(UnitSystem units);
 Columns<CarInfo> car_columns(UnitSystem units = UnitSystem::si);
 /// \param period  heading: "day" or "month"
 Columns<DailyUsage> usage_columns(std::string_view period);
@@ -55,6 +56,6 @@ Columns<ClassLength> class_columns(double km);
 /// @}
 
 std::string text_of(const InfoTables& tables, UnitSystem units = UnitSystem::si);
-void add_to(JsonObject& object, const InfoTables& tables);
+void add_to(JsonObject& object, const InfoTables& tables, UnitSystem units);
 
 } // namespace macadam

@@ -21,15 +21,19 @@ struct VectorField {
     bool is_number;
 };
 
+/// Units of properties; those of the United States are part of their names: "iri_in_per_mi".
+enum class TileUnits { si, us };
+
 /// Word and class tables of a vector tile.
 struct VectorTileContext {
     const TileWords* words;
     const ClassTable* classes;
+    TileUnits units = TileUnits::si;
 };
 
 /// Returns the properties over all zooms: those of segments, then the additional ones of road parts
 /// (docs/reference/vector-tiles.md).
-std::vector<VectorField> vector_fields(const ClassTable& classes);
+std::vector<VectorField> vector_fields(const ClassTable& classes, TileUnits units = TileUnits::si);
 
 /// Detail of a segment in a tile.
 enum class SegmentDetail {

@@ -84,19 +84,20 @@ const Columns<EventRecord> fields{
 };
 // clang-format on
 
-const Columns<EventRecord>& attributes() {
-    static const auto columns = attributes_of(fields);
-    return columns;
+using Attributes = Columns<EventRecord>;
+
+Attributes attributes_in(UnitSystem units) {
+    return in_units(attributes_of(fields), units);
 }
 
 // ---------------------------------------------------------------------------------- GeoPackage
 
-void write_rows(Database& database, const Events& events) {
-    auto insert = database.prepare(feature_insert("events", attributes()));
+void write_rows(Database& database, const Events& events, const Attributes& attributes) {
+    auto insert = database.prepare(feature_insert("events", attributes));
     for (const auto& record : events) {
         insert.bind(Blob{geometry_of(record.at)});
         int position = 1;
-        for (const auto& column : attributes()) {
+        for (const auto& column : attributes) {
             insert.bind_at(++position, plain_text(column.type, column.value(record)));
         }
         insert.step();
@@ -115,15 +116,16 @@ void date_by_content(Database& database, const Events& events) {
 
 void write_geopackage(const StoreReader& store,
                       const Events& events,
-                      const std::filesystem::path& file) {
+                      const std::filesystem::path& file,
+                      const Attributes& attributes) {
     AtomicFileSet files{file};
     {
         Database database{files.main_file(), Database::Access::create, file};
         add_geometry_functions(database);
         Transaction all{database, Transaction::Kind::write};
         make_geopackage(database);
-        database.run(feature_table("events", "POINT", attributes()));
-        write_rows(database, events);
+        database.run(feature_table("events", "POINT", attributes));
+        write_rows(database, events, attributes);
         GeoBox box;
         for (const auto& record : events) {
             box = including(box, record.at);
@@ -147,9 +149,9 @@ void write_geopackage(const StoreReader& store,
 // ----------------------------------------------------------------------------------- text files
 
 /// Formats an event as a Placemark of KML 2.2 (OGC 07-147r2, 9.2).
-std::string placemark(const EventRecord& record) {
+std::string placemark(const EventRecord& record, const Attributes& attributes) {
     std::string data;
-    for (const auto& column : attributes()) {
+    for (const auto& column : attributes) {
         if (const auto text = plain_text(column.type, column.value(record))) {
             data += fmt::format(
                 "<Data name=\"{}\"><value>{}</value></Data>", column.name, xml_text(*text));
@@ -163,13 +165,14 @@ std::string placemark(const EventRecord& record) {
                        record.at.lat_deg);
 }
 
-std::string kml_text(const Events& events, const std::string& attribution) {
+std::string
+kml_text(const Events& events, const std::string& attribution, const Attributes& attributes) {
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                        "<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
                        "<Document id=\"macadam\"><name>events</name>\n" +
                        fmt::format("<description>{}</description>\n", xml_text(attribution));
     for (const auto& record : events) {
-        text += placemark(record);
+        text += placemark(record, attributes);
     }
     return text + "</Document>\n</kml>\n";
 }
@@ -200,7 +203,7 @@ std::string text_as(std::string_view suffix,
         return geojson_text(events, attribution, columns);
     }
     if (suffix == ".kml") {
-        return kml_text(events, attribution);
+        return kml_text(events, attribution, attributes_in(how.units));
     }
     std::string text = suffix == ".csv" ? csv_header(columns) : std::string{};
     for (const auto& record : events) {
@@ -247,7 +250,7 @@ std::size_t export_events(const StoreReader& store,
     }
     const auto events = store.events(filter);
     if (suffix == ".gpkg") {
-        write_geopackage(store, events, file);
+        write_geopackage(store, events, file, attributes_in(text.units));
         return events.size();
     }
     const auto content = text_as(suffix, events, store.settings().attribution, text);

@@ -88,8 +88,8 @@ std::size_t export_as(std::string_view suffix, const SegmentExport& what, const 
         suffix, what, in_dialect([&](std::string_view more) { out.write(more); }, suffix, text));
     what.store.expect_in_place();
     out.commit();
-    if (suffix == ".geojson" && text.units == UnitSystem::si) { // a style names the fields
-        write_style_files(what.file, what.file.parent_path(), what.classes);
+    if (suffix == ".geojson") {
+        write_style_files(what.file, what.file.parent_path(), {what.classes, text.units});
     }
     return written;
 }
@@ -113,7 +113,9 @@ std::size_t each_segment(const SegmentExport& what,
 }
 
 std::string description_of(const SegmentExport& what) {
-    return fmt::format("Roughness (IRI, mm/m). {}", what.store.settings().attribution);
+    return fmt::format("Roughness (IRI, {}). {}",
+                       what.units == UnitSystem::us ? "in/mi" : "mm/m",
+                       what.store.settings().attribution);
 }
 
 bool is_text_suffix(std::string_view suffix) {
@@ -142,7 +144,9 @@ std::size_t export_segments(const StoreReader& store,
                              file,
                              progress,
                              *class_table(store.settings().class_table),
-                             in_units(segment_columns(), text.units)};
+                             text.units,
+                             in_units(segment_columns(), text.units),
+                             in_units(segment_attributes(), text.units)};
     return export_as(suffix, what, text);
 }
 

@@ -27,8 +27,11 @@ const Columns<ClassedSegment>& segment_columns();
 /// Those columns that are properties or attributes in files of other programs.
 const Columns<ClassedSegment>& segment_attributes();
 
-/// Value of each of segment_attributes() as text; `std::nullopt` if unknown.
-std::vector<std::optional<std::string>> attribute_texts(const ClassedSegment& segment);
+/// Value of each attribute as text; `std::nullopt` if unknown.
+/// \param attributes  segment_attributes(), in any units
+std::vector<std::optional<std::string>>
+attribute_texts(const ClassedSegment& segment,
+                const Columns<ClassedSegment>& attributes = segment_attributes());
 
 /// Formats a segment as a GeoJSON Feature on one line (RFC 7946: longitude first, 7 decimals; `id`
 /// = segment). A line across the antimeridian becomes a MultiLineString that is cut there.

@@ -7,6 +7,7 @@
 #include "storage/exports/flatgeobuf_index.hpp"
 #include "storage/exports/style_files.hpp"
 #include "storage/gdal/ogr_line_writer.hpp"
+#include "storage/styles/road_style.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ std::size_t write_lines(const SegmentExport& what,
     try {
         write(file, [&](const LinePut& put) {
             written = each_segment(what, [&](const SegmentRecord& record) {
-                put(shape_of(record), attribute_texts({record, what.classes}));
+                put(shape_of(record), attribute_texts({record, what.classes}, what.attributes));
             });
         });
     } catch (const InputError& error) {
@@ -44,9 +45,9 @@ std::size_t write_lines(const SegmentExport& what,
 
 // ---------------------------------------------------------------------------------- FlatGeobuf
 
-std::vector<LineFileColumn> flatgeobuf_columns() {
+std::vector<LineFileColumn> flatgeobuf_columns(const Columns<ClassedSegment>& attributes) {
     std::vector<LineFileColumn> columns;
-    for (const auto& [name, type, value, shown] : segment_attributes()) {
+    for (const auto& [name, type, value, shown] : attributes) {
         columns.push_back({name,
                            type.kind == Kind::real      ? Type::real
                            : type.kind == Kind::integer ? Type::integer
@@ -75,12 +76,6 @@ constexpr int day_bytes = 8;
 constexpr int integer_bytes = 18; // with more digits, GDAL reads the column as real numbers
 constexpr int real_bytes = 13;    // 2147483.647 mm/m, and positions along a way of any length
 
-/// Shapefile column name, of at most 10 bytes: mostly the name itself.
-std::string_view short_name(std::string_view name) {
-    constexpr std::size_t max_bytes = 10;
-    return name.size() <= max_bytes ? name : "trend_year";
-}
-
 /// Sizes that must be known before the first row of a Shapefile.
 struct Measure {
     std::uint64_t shp_bytes = shp_header_bytes;
@@ -96,7 +91,7 @@ Measure measured(const SegmentExport& what) {
         for (const auto& part : cut_at_antimeridian(record.segment.line)) {
             measure.shp_bytes += shp_part_bytes + part.size() * shp_point_bytes;
         }
-        const auto values = attribute_texts({record, what.classes});
+        const auto values = attribute_texts({record, what.classes}, what.attributes);
         for (std::size_t i = 0; i < values.size(); ++i) {
             measure.widest[i] = std::max(measure.widest[i], values[i] ? values[i]->size() : 0);
         }
@@ -108,7 +103,7 @@ Measure measured(const SegmentExport& what) {
 }
 
 LineFileColumn shapefile_column(const Column<ClassedSegment>& column, std::size_t widest) {
-    const auto name = short_name(column.name);
+    const auto name = shapefile_name(column.name);
     switch (column.type.kind) {
     case Kind::day:
         return {name, Type::day, day_bytes};
@@ -123,9 +118,9 @@ LineFileColumn shapefile_column(const Column<ClassedSegment>& column, std::size_
     return {name, Type::text, static_cast<int>(width)};
 }
 
-std::vector<LineFileColumn> shapefile_columns(const Measure& measure) {
+std::vector<LineFileColumn> shapefile_columns(const SegmentExport& what, const Measure& measure) {
     std::vector<LineFileColumn> columns;
-    for (const auto& column : segment_attributes()) {
+    for (const auto& column : what.attributes) {
         columns.push_back(shapefile_column(column, measure.widest[columns.size()]));
     }
     return columns;
@@ -204,7 +199,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
                    .file = files.folder() / "plain.fgb",
                    .layer = "roughness",
                    .options = {{"SPATIAL_INDEX", "NO"}, {"DESCRIPTION", description_of(what)}},
-                   .columns = flatgeobuf_columns()};
+                   .columns = flatgeobuf_columns(what.attributes)};
     std::vector<GeoBox> boxes;
     const auto parts_of = [&](const SegmentRecord& record) -> LineParts {
         const auto& line = record.segment.line; // line layers have single-part lines only
@@ -229,7 +224,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
         }
     }
     std::filesystem::remove(files.folder() / "plain.fgb");
-    write_style_files(what.file, files.folder(), what.classes);
+    write_style_files(what.file, files.folder(), {what.classes, what.units});
     what.store.expect_in_place();
     files.commit();
     return written;
@@ -237,7 +232,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
 
 std::size_t export_shapefile(const SegmentExport& what) {
     const auto measure = measured(what);
-    const auto columns = shapefile_columns(measure);
+    const auto columns = shapefile_columns(what, measure);
     expect_room(what, measure, columns);
     AtomicFileSet files{what.file};
     const auto stem = what.file.stem().string();
@@ -254,7 +249,7 @@ std::size_t export_shapefile(const SegmentExport& what) {
         throw InputError{
             fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
     }
-    write_style_files(what.file, files.folder(), what.classes);
+    write_style_files(what.file, files.folder(), {what.classes, what.units, FieldNames::shapefile});
     what.store.expect_in_place();
     files.commit(stale_beside(stem));
     return written;

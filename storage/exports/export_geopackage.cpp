@@ -28,8 +28,8 @@ std::vector<GeoPoint> smooth_line(const SegmentRecord& record) {
 void write_row(Statement& insert,
                const SegmentRecord& record,
                std::span<const GeoPoint> line,
-               const ClassTable& classes) {
-    const auto values = attribute_texts({record, classes});
+               const SegmentExport& what) {
+    const auto values = attribute_texts({record, what.classes}, what.attributes);
     insert.bind(Blob{geometry_of(line)});
     for (std::size_t i = 0; i < values.size(); ++i) {
         insert.bind_at(static_cast<int>(i) + 2, values[i]);
@@ -51,14 +51,14 @@ std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::p
     add_geometry_functions(database);
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
-    database.run(feature_table("roughness", "LINESTRING", segment_attributes()));
+    database.run(feature_table("roughness", "LINESTRING", what.attributes));
     GeoBox box;
     std::size_t written = 0;
     {
-        auto insert = database.prepare(feature_insert("roughness", segment_attributes()));
+        auto insert = database.prepare(feature_insert("roughness", what.attributes));
         written = each_segment(what, [&](const SegmentRecord& record) {
             const auto line = smooth_line(record);
-            write_row(insert, record, line, what.classes);
+            write_row(insert, record, line, what);
             for (const auto& point : line) {
                 box = including(box, point);
             }
@@ -71,7 +71,7 @@ std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::p
                    is_empty(box) ? what.store.info().box : box});
     index_features(database, "roughness");
     add_style_table(database);
-    add_default_style(database, "roughness", what.classes);
+    add_default_style(database, "roughness", {what.classes, what.units});
     date_by_content(database, what.store.seen());
     all.commit();
     return written;

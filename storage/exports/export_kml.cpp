@@ -44,9 +44,9 @@ std::string_view type_of(const Column<ClassedSegment>& column) {
     return column.type.kind == Kind::real ? "double" : is_int ? "int" : "string";
 }
 
-std::string schema() {
+std::string schema(const Columns<ClassedSegment>& attributes) {
     std::string text = "<Schema name=\"roughness\" id=\"roughness\">\n";
-    for (const auto& column : segment_attributes()) {
+    for (const auto& column : attributes) {
         if (!is_own_member(column.name)) {
             text += fmt::format(
                 "<SimpleField type=\"{}\" name=\"{}\"/>\n", type_of(column), column.name);
@@ -89,9 +89,9 @@ std::string shape_of(const std::vector<GeoPoint>& line) {
     return fmt::format("<MultiGeometry>{}</MultiGeometry>", parts);
 }
 
-std::string placemark(const SegmentRecord& record, const ClassTable& classes) {
-    const auto& columns = segment_attributes();
-    const auto values = attribute_texts({record, classes});
+std::string placemark(const SegmentRecord& record, const SegmentExport& what) {
+    const auto& columns = what.attributes;
+    const auto values = attribute_texts({record, what.classes}, columns);
     std::string name;
     std::string data;
     auto style_id = std::string{unmeasured_style};
@@ -124,9 +124,10 @@ std::size_t write_kml(const SegmentExport& what, const PutText& put) {
         "<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
         "<Document id=\"macadam\"><name>roughness</name>\n" +
         fmt::format("<description>{}</description>\n", xml_text(description_of(what))) +
-        styles(what.classes) + schema() + "<Folder id=\"segments\"><name>roughness</name>\n");
-    const auto written = each_segment(
-        what, [&](const SegmentRecord& record) { put(placemark(record, what.classes)); });
+        styles(what.classes) + schema(what.attributes) +
+        "<Folder id=\"segments\"><name>roughness</name>\n");
+    const auto written =
+        each_segment(what, [&](const SegmentRecord& record) { put(placemark(record, what)); });
     put("</Folder>\n</Document>\n</kml>\n");
     return written;
 }

@@ -102,7 +102,7 @@ std::string project_text(const StoreReader& store, const fs::path& file) {
                     xml_text(source),
                     name,
                     xml_text(store.settings().attribution));
-    text += crs_element("srs", geographic) + qgis_layer_elements(classes) + "</maplayer>\n";
+    text += crs_element("srs", geographic) + qgis_layer_elements({classes}) + "</maplayer>\n";
     text += fmt::format(
         "<maplayer type=\"raster\">\n<id>{}</id><datasource>{}</datasource>"
         "<layername>OpenStreetMap</layername>\n<provider>wms</provider>\n"

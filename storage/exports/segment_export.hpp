@@ -15,8 +15,10 @@ struct SegmentExport {
     const SegmentFilter& filter;
     const std::filesystem::path& file; ///< as named by the user
     const Progress& progress;
-    const ClassTable& classes;         ///< of the database
-    Columns<ClassedSegment> columns{}; ///< of text formats, in the requested units
+    const ClassTable& classes; ///< of the database
+    UnitSystem units;
+    Columns<ClassedSegment> columns;    ///< in these units
+    Columns<ClassedSegment> attributes; ///< those that are attributes in files of other programs
 };
 
 /// Visits the segments and reports progress. \returns the number of segments.
@@ -25,7 +27,7 @@ struct SegmentExport {
 std::size_t each_segment(const SegmentExport& what,
                          const std::function<void(const SegmentRecord&)>& write);
 
-/// "Roughness (IRI, mm/m)." and the attribution of the roads.
+/// "Roughness (IRI, mm/m)." or in/mi, and the attribution of the roads.
 std::string description_of(const SegmentExport& what);
 
 std::size_t export_geopackage(const SegmentExport& what);

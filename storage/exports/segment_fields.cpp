@@ -156,9 +156,10 @@ const Columns<ClassedSegment>& segment_attributes() {
     return attributes;
 }
 
-std::vector<Text> attribute_texts(const ClassedSegment& segment) {
+std::vector<Text> attribute_texts(const ClassedSegment& segment,
+                                  const Columns<ClassedSegment>& attributes) {
     std::vector<Text> texts;
-    for (const auto& column : segment_attributes()) {
+    for (const auto& column : attributes) {
         texts.push_back(plain_text(column.type, column.value(segment)));
     }
     return texts;

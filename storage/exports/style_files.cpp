@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file.hpp"
-#include "storage/styles/road_style.hpp"
 
 #include <fmt/format.h>
 
@@ -39,10 +38,10 @@ struct StyleFile {
 
 void write_style_files(const std::filesystem::path& layer,
                        const std::filesystem::path& folder,
-                       const ClassTable& classes) {
+                       const RoadStyle& style) {
     for (const auto& [suffix, text] :
-         {StyleFile{".qml", qml_style(classes)},
-          StyleFile{".sld", sld_style(classes, layer.stem().string())}}) {
+         {StyleFile{".qml", qml_style(style)},
+          StyleFile{".sld", sld_style(style, layer.stem().string())}}) {
         auto place = layer;
         place.replace_extension(suffix);
         if (is_of_others(place)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mapping/style/iri_class.hpp"
+#include "storage/styles/road_style.hpp"
 
 #include <filesystem>
 
@@ -15,6 +15,6 @@ namespace macadam {
 /// \throws InputError  if they cannot be written.
 void write_style_files(const std::filesystem::path& layer,
                        const std::filesystem::path& folder,
-                       const ClassTable& classes);
+                       const RoadStyle& style);
 
 } // namespace macadam

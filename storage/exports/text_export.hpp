@@ -11,9 +11,9 @@ namespace macadam {
 
 using PutText = std::function<void(std::string_view)>;
 
-/// Options of exported text files: .geojson, .geojsonl, .csv and .kml.
+/// Units of exported files, and options of those that are text: .geojson, .geojsonl, .csv and .kml.
 struct TextExport {
-    UnitSystem units = UnitSystem::si;   ///< of .geojson, .geojsonl and .csv
+    UnitSystem units = UnitSystem::si;
     std::optional<ExcelDialect> excel{}; ///< of .csv; `std::nullopt`: commas and points
     PutText put{};                       ///< takes the text instead of the file, whose name then
                                          ///< selects the format; empty: the file

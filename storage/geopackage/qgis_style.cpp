@@ -1,8 +1,6 @@
 
 #include "storage/geopackage/qgis_style.hpp"
 
-#include "storage/styles/road_style.hpp"
-
 #include <string_view>
 
 namespace macadam {
@@ -35,13 +33,13 @@ void add_style_table(Database& database) {
     database.run(style_table);
 }
 
-void add_default_style(Database& database, std::string_view table, const ClassTable& classes) {
+void add_default_style(Database& database, std::string_view table, const RoadStyle& style) {
     database
         .prepare(
             "INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name,"
             " f_geometry_column, styleName, styleQML, styleSLD, useAsDefault, description, owner)"
             " VALUES ('', '', ?, 'geom', 'roughness', ?, ?, 1, ?, '')")
-        .run(table, qml_style(classes), sld_style(classes, table), classes.title);
+        .run(table, qml_style(style), sld_style(style, table), style.classes.title);
 }
 
 } // namespace macadam

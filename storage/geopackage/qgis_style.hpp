@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/geopackage/geopackage.hpp"
+#include "storage/styles/road_style.hpp"
 
 namespace macadam {
 
@@ -9,6 +10,6 @@ void add_style_table(Database& database);
 
 /// Adds a default style for QGIS to that table: lines with a casing, coloured by the column
 /// `class`.
-void add_default_style(Database& database, std::string_view table, const ClassTable& classes);
+void add_default_style(Database& database, std::string_view table, const RoadStyle& style);
 
 } // namespace macadam

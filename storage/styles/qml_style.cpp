@@ -50,36 +50,36 @@ std::string line_layer(int pass, std::string_view rgb, double width_mm, double f
            "</Option></data_defined_properties></layer>";
 }
 
-std::string symbol(const ClassTable& classes, std::size_t index) {
+std::string symbol(const RoadStyle& style, std::size_t index) {
     return fmt::format(
         R"(<symbol type="line" name="{}" alpha="1" force_rhr="0" clip_to_extent="1">)"
         "{}{}</symbol>\n",
         index,
         line_layer(0, casing_rgb, casing_mm, casing_factor),
-        line_layer(1, class_colour_numbers(classes, index), core_mm, 1));
+        line_layer(1, class_colour_numbers(style.classes, index), core_mm, 1));
 }
 
-std::string renderer(const ClassTable& classes) {
+std::string renderer(const RoadStyle& style) {
     std::string ranges;
     std::string symbols;
-    const auto count = classes.classes.size();
+    const auto count = style.classes.classes.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const double upper = i + 1 == count ? roughest_mm_per_m : classes.classes[i].to_mm_per_m;
         ranges += fmt::format(
             R"(<range lower="{:.9f}" upper="{:.9f}" symbol="{}" label="{}" render="true"/>)"
             "\n",
-            lower_limit(classes, i),
-            upper,
+            lower_limit(style, i),
+            i + 1 == count ? in_units_of(style, roughest_mm_per_m) : upper_limit(style, i),
             i,
-            xml_text(class_label(classes, i)));
-        symbols += symbol(classes, i);
+            xml_text(class_label(style, i)));
+        symbols += symbol(style, i);
     }
     return fmt::format(
-        R"(<renderer-v2 type="graduatedSymbol" attr="iri" graduatedMethod="GraduatedColor" )"
+        R"(<renderer-v2 type="graduatedSymbol" attr="{}" graduatedMethod="GraduatedColor" )"
         R"(symbollevels="1" enableorderby="0" forceraster="0">)"
         "\n<ranges>\n{}</ranges>\n<symbols>\n{}</symbols>\n"
         R"(<classificationMethod id="Custom"/></renderer-v2>)"
         "\n",
+        field_name(style, "iri", "mm/m"),
         ranges,
         symbols);
 }
@@ -97,61 +97,80 @@ constexpr const char* labeling =
     R"(maxNumLabels="2000" fontMaxPixelSize="10000"/></settings></labeling>)"
     "\n";
 
+/// What QGIS calls a field; {} is its unit.
 struct Alias {
-    const char* field;
-    const char* name;
+    std::string_view column;
+    std::string_view name;
+    std::string_view unit{};
 };
 constexpr std::array aliases{Alias{"segment", "Segment"},
                              Alias{"way_id", "OSM way"},
                              Alias{"name", "Road"},
                              Alias{"highway", "Road class"},
                              Alias{"direction", "Direction"},
-                             Alias{"from_m", "From (m along the way)"},
-                             Alias{"to_m", "To (m along the way)"},
-                             Alias{"iri", "IRI (mm/m)"},
-                             Alias{"iri_sd", "Standard deviation (mm/m)"},
-                             Alias{"iri_low", "90 % interval, from (mm/m)"},
-                             Alias{"iri_high", "90 % interval, to (mm/m)"},
-                             Alias{"iri_left", "IRI, left track (mm/m)"},
-                             Alias{"iri_right", "IRI, right track (mm/m)"},
+                             Alias{"from_m", "From ({} along the way)", "m"},
+                             Alias{"to_m", "To ({} along the way)", "m"},
+                             Alias{"iri", "IRI ({})", "mm/m"},
+                             Alias{"iri_sd", "Standard deviation ({})", "mm/m"},
+                             Alias{"iri_low", "90 % interval, from ({})", "mm/m"},
+                             Alias{"iri_high", "90 % interval, to ({})", "mm/m"},
+                             Alias{"iri_left", "IRI, left track ({})", "mm/m"},
+                             Alias{"iri_right", "IRI, right track ({})", "mm/m"},
                              Alias{"index", "Kind of IRI"},
                              Alias{"class", "Roughness class"},
                              Alias{"passes", "Passes"},
                              Alias{"vehicles", "Cars"},
                              Alias{"first_seen", "First pass"},
                              Alias{"last_seen", "Last pass"},
-                             Alias{"trend_per_year", "Trend (mm/m per year)"},
-                             Alias{"trend_sd", "Trend, standard deviation (mm/m per year)"},
+                             Alias{"trend_per_year", "Trend ({} per year)", "mm/m"},
+                             Alias{"trend_sd", "Trend, standard deviation ({} per year)", "mm/m"},
                              Alias{"changed", "Changed on"},
-                             Alias{"change", "Change (mm/m)"},
+                             Alias{"change", "Change ({})", "mm/m"},
                              Alias{"validity", "Validity"}};
 
-std::string alias_list() {
+std::string_view unit_in(const RoadStyle& style, std::string_view unit) {
+    return style.units == UnitSystem::us ? us_column("", as::real(3, unit), {}).type.unit : unit;
+}
+
+std::string alias_list(const RoadStyle& style) {
     std::string list = "<aliases>\n";
-    for (const auto& [field, name] : aliases) {
-        list += fmt::format("<alias field=\"{}\" name=\"{}\"/>\n", field, name);
+    for (const auto& [column, name, unit] : aliases) {
+        list += fmt::format("<alias field=\"{}\" name=\"{}\"/>\n",
+                            field_name(style, column, unit),
+                            fmt::format(fmt::runtime(name), unit_in(style, unit)));
     }
     return list + "</aliases>\n";
 }
 
-constexpr const char* map_tip =
-    R"(<b>[% coalesce("name", "highway", 'road') %]</b><br>IRI [% format_number("iri", 2) %] mm/m ([% "class" %])<br>)"
-    R"(90 %: [% format_number("iri_low", 2) %] to [% format_number("iri_high", 2) %]<br>)"
-    R"([% "passes" %] passes of [% "vehicles" %] cars, last [% coalesce(to_string("last_seen"), 'undated') %])";
+std::string map_tip(const RoadStyle& style) {
+    const auto value = [&](std::string_view column) {
+        return fmt::format(R"([% format_number("{}", {}) %])",
+                           field_name(style, column, "mm/m"),
+                           style.units == UnitSystem::us ? 0 : 2);
+    };
+    return fmt::format(
+        R"(<b>[% coalesce("name", "highway", 'road') %]</b><br>IRI {} {} ([% "class" %])<br>)"
+        R"(90 %: {} to {}<br>)"
+        R"([% "passes" %] passes of [% "vehicles" %] cars, last [% coalesce(to_string("last_seen"), 'undated') %])",
+        value("iri"),
+        unit_in(style, "mm/m"),
+        value("iri_low"),
+        value("iri_high"));
+}
 
 } // namespace
 
-std::string qgis_layer_elements(const ClassTable& classes) {
-    return renderer(classes) + labeling + alias_list() +
-           fmt::format("<mapTip>{}</mapTip>\n", xml_text(map_tip));
+std::string qgis_layer_elements(const RoadStyle& style) {
+    return renderer(style) + labeling + alias_list(style) +
+           fmt::format("<mapTip>{}</mapTip>\n", xml_text(map_tip(style)));
 }
 
-std::string qml_style(const ClassTable& classes) {
+std::string qml_style(const RoadStyle& style) {
     return fmt::format(
         "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
         R"(<qgis version="3.22.16" styleCategories="Symbology|Labeling|Fields|MapTips" labelsEnabled="1">)"
         "\n{}</qgis>\n",
-        qgis_layer_elements(classes));
+        qgis_layer_elements(style));
 }
 
 } // namespace macadam

@@ -33,25 +33,29 @@ std::string scales(const WidthAtScale& width) {
     return text;
 }
 
-std::string comparison(const char* name, double limit) {
-    return fmt::format("<ogc:{0}><ogc:PropertyName>iri</ogc:PropertyName><ogc:Literal>{1:.6f}"
+std::string comparison(const RoadStyle& style, const char* name, double limit) {
+    return fmt::format("<ogc:{0}><ogc:PropertyName>{2}</ogc:PropertyName><ogc:Literal>{1:.6f}"
                        "</ogc:Literal></ogc:{0}>",
                        name,
-                       limit);
+                       limit,
+                       field_name(style, "iri", "mm/m"));
 }
 
-std::string filter(const ClassTable& classes, std::size_t index) {
-    const bool is_last = index + 1 == classes.classes.size();
-    const auto& [name, to_mm_per_m, open] = classes.classes[index];
-    const bool opens = index > 0 && classes.classes[index - 1].open;
+std::string filter(const RoadStyle& style, std::size_t index) {
+    const auto& classes = style.classes.classes;
+    const bool is_last = index + 1 == classes.size();
+    const bool opens = index > 0 && classes[index - 1].open;
     const auto above =
-        comparison(opens || index == 0 ? "PropertyIsGreaterThanOrEqualTo" : "PropertyIsGreaterThan",
-                   lower_limit(classes, index));
+        comparison(style,
+                   opens || index == 0 ? "PropertyIsGreaterThanOrEqualTo" : "PropertyIsGreaterThan",
+                   lower_limit(style, index));
     if (is_last) {
         return "<ogc:Filter>" + above + "</ogc:Filter>";
     }
     return "<ogc:Filter><ogc:And>" + above +
-           comparison(open ? "PropertyIsLessThan" : "PropertyIsLessThanOrEqualTo", to_mm_per_m) +
+           comparison(style,
+                      classes[index].open ? "PropertyIsLessThan" : "PropertyIsLessThanOrEqualTo",
+                      upper_limit(style, index)) +
            "</ogc:And></ogc:Filter>";
 }
 
@@ -68,26 +72,26 @@ std::string line(const std::string& colour, double width_px, double offset_px) {
         offset_px);
 }
 
-std::string rule(const ClassTable& classes, std::size_t index, const WidthAtScale& width) {
+std::string rule(const RoadStyle& style, std::size_t index, const WidthAtScale& width) {
     // Negative: to the right (05-077r4, 11.1.3). QGIS 3.22 takes it for the left, and reads the
     // .qml.
     const double offset_px = -(width.px + casing_px) / 2;
     return fmt::format("<se:Rule><se:Name>{0}</se:Name><se:Description><se:Title>{0}</se:Title>"
                        "</se:Description>{1}{2}{3}{4}</se:Rule>\n",
-                       xml_text(class_label(classes, index)),
-                       filter(classes, index),
+                       xml_text(class_label(style, index)),
+                       filter(style, index),
                        scales(width),
                        line("#262626", width.px + casing_px, offset_px),
-                       line(class_colour_hex(classes, index), width.px, offset_px));
+                       line(class_colour_hex(style.classes, index), width.px, offset_px));
 }
 
 } // namespace
 
-std::string sld_style(const ClassTable& classes, std::string_view layer) {
+std::string sld_style(const RoadStyle& style, std::string_view layer) {
     std::string rules;
     for (const auto& width : widths) {
-        for (std::size_t i = 0; i < classes.classes.size(); ++i) {
-            rules += rule(classes, i, width);
+        for (std::size_t i = 0; i < style.classes.classes.size(); ++i) {
+            rules += rule(style, i, width);
         }
     }
     return fmt::format(

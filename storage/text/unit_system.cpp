@@ -36,6 +36,7 @@ constexpr std::array conversions{
 
 /// Words of headings of tables, longest first.
 constexpr std::array headings{std::pair{std::string_view{"metres"}, std::string_view{"feet"}},
+                              std::pair{std::string_view{"mm/m"}, std::string_view{"in/mi"}},
                               std::pair{std::string_view{"km/h"}, std::string_view{"mph"}},
                               std::pair{std::string_view{"km"}, std::string_view{"mi"}},
                               std::pair{std::string_view{"mm"}, std::string_view{"in"}},

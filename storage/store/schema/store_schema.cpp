@@ -118,7 +118,7 @@ void write_store(Database& database,
     list_features(database,
                   {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
     index_store_tables(database); // much faster after the rows were inserted
-    add_default_style(database, "roughness", *classes);
+    add_default_style(database, "roughness", {*classes});
     hide_other_tables(database);
     all.commit();
 }

@@ -1,11 +1,9 @@
 // What `query`, `export`, `render` and `report` hand on to other programs: standard output, CSV for
 // Excel, workbooks, and units of the United States.
 
-#include "storage/store/road_store.hpp"
 #include "support/files/xlsx_reader.hpp"
-#include "support/program/program.hpp"
+#include "support/program/road_program.hpp"
 #include "support/program/shell.hpp"
-#include "support/roads/store_world.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,48 +20,50 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
-class HandingOn : public ::testing::Test {
-protected:
-    void SetUp() override {
-        folder_ = fresh_folder();
-        store_ = (folder_ / "roads.gpkg").string();
-        auto store = new_store(store_);
-        import_trips(store, 6);
+/// Text of a page: without its style, tags and their attributes other than descriptions.
+std::string text_of_html(const std::string& html) {
+    std::string text;
+    for (std::size_t at = 0; at < html.size();) {
+        if (html[at] != '<') {
+            text += html[at++];
+            continue;
+        }
+        if (html.compare(at, 6, "<style") == 0) {
+            at = html.find("</style>", at);
+        }
+        const auto end = html.find('>', at);
+        const auto tag = html.substr(at, end - at);
+        for (const auto* attribute : {" alt=\"", " aria-label=\"", " title=\""}) {
+            if (const auto found = tag.find(attribute); found != std::string::npos) {
+                const auto begin = tag.find('"', found) + 1;
+                text += " " + tag.substr(begin, tag.find('"', begin) - begin);
+            }
+        }
+        text += ' ';
+        at = end + 1;
     }
+    return text;
+}
 
-    macadam::testing::Run run(const std::string& command, std::vector<std::string> words) const {
-        words.insert(words.begin(), {command, store_});
-        return run_macadam(words);
+/// What no report for an American agency has.
+const std::regex metric{
+    R"((^|[^A-Za-z/])(mm/m|m/km|km/h|km|mm|cm|m|metres?|kilometres?)($|[^A-Za-z0-9]))"};
+
+std::string metric_units_in(const std::string& text) {
+    std::string found;
+    for (std::sregex_iterator hit{text.begin(), text.end(), metric}, end; hit != end; ++hit) {
+        const auto at = static_cast<std::size_t>(hit->position());
+        found += "..." + text.substr(at > 30 ? at - 30 : 0, 60) + "\n";
     }
+    return found;
+}
 
-    std::string done(const std::string& command, const std::vector<std::string>& words) const {
-        const auto result = run(command, words);
-        EXPECT_EQ(result.exit_status, 0) << result.err;
-        return result.out;
-    }
-
-    std::string file_of(const std::string& command,
-                        const std::string& name,
-                        std::vector<std::string> words = {}) const {
-        const auto file = (folder_ / name).string();
-        words.insert(words.end(), {"-o", file});
-        done(command, words);
-        return file;
-    }
-
-    std::string refusal(const std::string& command, const std::vector<std::string>& words) const {
-        const auto result = run(command, words);
-        EXPECT_EQ(result.exit_status, 2) << result.err;
-        return result.err;
-    }
-
-    std::filesystem::path folder_;
-    std::string store_;
-};
+class HandingOn : public RoadProgram {};
 
 TEST_F(HandingOn, ToStandardOutputGivesTheBytesOfAFile) {
     for (const auto* format : {"geojson", "geojsonl", "csv", "kml"}) {
@@ -106,6 +106,8 @@ TEST_F(HandingOn, ToExcelInGermanHasSemicolonsAndCommas) {
     EXPECT_THAT(german, Not(HasSubstr("19.99")));
     EXPECT_THAT(german, HasSubstr(";19,99;"));
     EXPECT_EQ(done("query", {"--way", "1", "--format", "csv", "--excel", "de"}), german);
+    EXPECT_EQ(run_macadam({"query", "--excel", store_, "--way", "1", "--format", "csv"}).out,
+              read_file(file_of("export", "any.csv", {"--excel"})));
     EXPECT_EQ(read_file(file_of("export", "en.csv", {"--excel=en"})), "\xEF\xBB\xBF" + english);
     EXPECT_THAT(refusal("export", {"-o", "a.csv", "--excel", "tlh"}),
                 HasSubstr("--excel is 'tlh', expected a language such as en, "));
@@ -116,10 +118,9 @@ TEST_F(HandingOn, ToExcelInGermanHasSemicolonsAndCommas) {
 }
 
 TEST_F(HandingOn, AsAWorkbookHasSegmentsWorstSectionsAndADictionary) {
-    const auto sections = (folder_ / "sections.csv").string();
-    write_file(sections, "way_id,from_m,to_m\n1,0,100\n");
-    const auto file = file_of("export", "a.xlsx");
-    const auto sheets = read_xlsx(file);
+    const auto sections = file("sections.csv", "way_id,from_m,to_m\n1,0,100\n");
+    const auto book = file_of("export", "a.xlsx");
+    const auto sheets = read_xlsx(book);
     ASSERT_EQ(sheets.size(), 3U);
     EXPECT_EQ(sheets[0].name, "segments");
     EXPECT_EQ(sheets[0].rows.size(), 21U); // with the header
@@ -133,7 +134,7 @@ TEST_F(HandingOn, AsAWorkbookHasSegmentsWorstSectionsAndADictionary) {
     const auto with_sections = file_of("export", "b.xlsx", {"--sections", sections});
     EXPECT_EQ(read_xlsx(with_sections)[1].name, "sections");
     EXPECT_EQ(read_xlsx(with_sections)[1].rows.size(), 2U);
-    EXPECT_TRUE(read_file(file) == read_file(file_of("export", "again.xlsx")));
+    EXPECT_TRUE(read_file(book) == read_file(file_of("export", "again.xlsx")));
 }
 
 TEST_F(HandingOn, InUsUnitsSaysTheUnitInTheNamesOfColumns) {
@@ -152,52 +153,91 @@ TEST_F(HandingOn, InUsUnitsSaysTheUnitInTheNamesOfColumns) {
     }
     EXPECT_THAT(
         units, AllOf(Contains("in/mi"), Contains("ft"), Not(Contains("m")), Not(Contains("mm/m"))));
-    EXPECT_THAT(refusal("export", {"-o", "a.gpkg", "--units", "us"}),
-                HasSubstr("--units us is for .csv, .geojson, .geojsonl and .xlsx"));
-    EXPECT_THAT(done("info", {"--units", "us"}), AllOf(HasSubstr(" mi"), Not(HasSubstr("km"))));
+    EXPECT_THAT(refusal("export", {"-o", "a.qgz", "--units", "us"}),
+                HasSubstr("the project shows the database, which is metric; export a .gpkg"));
+    EXPECT_THAT(refusal("export", {"-o", "a.mbtiles", "--tiles", "picture", "--units", "us"}),
+                HasSubstr("--units us has no effect on pictures"));
 }
 
-/// Text of a page: without its style, tags and their attributes other than descriptions.
-std::string text_of_html(const std::string& html) {
-    std::string text;
-    for (std::size_t at = 0; at < html.size();) {
-        if (html[at] != '<') {
-            text += html[at++];
-            continue;
-        }
-        if (html.compare(at, 6, "<style") == 0) {
-            at = html.find("</style>", at);
-        }
-        const auto end = html.find('>', at);
-        const auto tag = html.substr(at, end - at);
-        for (const auto* attribute : {" alt=\"", " aria-label=\"", " title=\""}) {
-            if (const auto found = tag.find(attribute); found != std::string::npos) {
-                const auto begin = tag.find('"', found) + 1;
-                text += " " + tag.substr(begin, tag.find('"', begin) - begin);
-            }
-        }
-        text += ' ';
-        at = end + 1;
+/// Fields of a layer as ogrinfo of GDAL lists them: "iri_in_per_mi".
+std::vector<std::string> fields_in(const std::filesystem::path& folder, const std::string& file) {
+    const auto json = Json::parse(output_of(folder, "ogrinfo -json -so -al " + file));
+    std::vector<std::string> names;
+    for (const auto& field : json.at("layers").at(0).at("fields")) {
+        names.push_back(field.at("name"));
     }
-    return text;
+    return names;
 }
 
-/// What no report for an American agency has.
-const std::regex metric{
-    R"((^|[^A-Za-z/])(mm/m|m/km|km/h|km|mm|cm|m|metres?|kilometres?)($|[^A-Za-z0-9]))"};
-
-std::string metric_units_in(const std::string& text) {
-    std::string found;
-    for (std::sregex_iterator hit{text.begin(), text.end(), metric}, end; hit != end; ++hit) {
-        const auto at = static_cast<std::size_t>(hit->position());
-        found += "..." + text.substr(at > 30 ? at - 30 : 0, 60) + "\n";
+TEST_F(HandingOn, InUsUnitsHasTheColumnsOfCsvInFilesOfOtherPrograms) {
+    auto header = done("export", {"-o", "-", "--format", "csv", "--units", "us"});
+    header = header.substr(0, header.find(",lat_deg"));
+    for (const auto* suffix : {"gpkg", "fgb", "geojson"}) {
+        const auto file = file_of("export", fmt::format("us.{}", suffix), {"--units", "us"});
+        EXPECT_EQ(fmt::format("{}", fmt::join(fields_in(folder_, file), ",")), header) << suffix;
     }
-    return found;
+    const auto kml = read_file(file_of("export", "us.kml", {"--units", "us"}));
+    EXPECT_THAT(kml,
+                AllOf(HasSubstr(R"(name="iri_in_per_mi")"),
+                      HasSubstr("Roughness (IRI, in/mi)."),
+                      Not(HasSubstr(R"(name="iri")"))));
+}
+
+TEST_F(HandingOn, InUsUnitsHasNamesOfTenBytesInAShapefile) {
+    const auto file = file_of("export", "us.shp", {"--units", "us"});
+    EXPECT_THAT(fields_in(folder_, file),
+                AllOf(IsSupersetOf({"from_ft", "iri_inmi", "sd_inmi", "right_inmi", "trsd_inmi"}),
+                      Not(Contains("iri")),
+                      Not(Contains("from_m"))));
+    const auto style = read_file(folder_ / "us.qml");
+    EXPECT_THAT(style, HasSubstr(R"(attr="iri_inmi")"));
+    EXPECT_THAT(style, HasSubstr(R"(lower="95.000000000" upper="170.000000000")"));
+    EXPECT_THAT(style, HasSubstr("fair (95 to 170 in/mi)"));
+    EXPECT_THAT(style, HasSubstr(R"(field="trend_inmi" name="Trend (in/mi per year)")"));
+    EXPECT_THAT(style, HasSubstr(R"(field="from_ft" name="From (ft along the way)")"));
+    EXPECT_EQ(metric_units_in(style.substr(style.find("<aliases>"))), "");
+    const auto sld = read_file(folder_ / "us.sld");
+    EXPECT_THAT(sld,
+                HasSubstr("<ogc:PropertyName>iri_inmi</ogc:PropertyName><ogc:Literal>95.000000"));
+    EXPECT_THAT(sld, HasSubstr("poor (above 170 in/mi)"));
+}
+
+TEST_F(HandingOn, InUsUnitsHasTilesAndEventsWithoutAMetricField) {
+    done("export", {"-o", (folder_ / "tiles/").string(), "--units", "us"});
+    const auto metadata = Json::parse(read_file(folder_ / "tiles" / "metadata.json"));
+    const auto& layer = metadata.at("vector_layers").at(0);
+    EXPECT_THAT(layer.at("description"), HasSubstr("IRI in in/mi"));
+    for (const auto* field : {"from_ft", "iri_in_per_mi", "length_ft", "good_ft"}) {
+        EXPECT_TRUE(layer.at("fields").contains(field)) << field;
+    }
+    EXPECT_EQ(metric_units_in(layer.at("description")), "");
+    for (const auto* field : {"from_m", "iri", "length_m"}) {
+        EXPECT_FALSE(layer.at("fields").contains(field)) << field;
+    }
+    const auto events = file_of("export", "us.gpkg", {"--events", "--units", "us"});
+    EXPECT_THAT(fields_in(folder_, events),
+                AllOf(IsSupersetOf({"size_in", "length_ft"}), Not(Contains("size_mm"))));
+}
+
+TEST_F(HandingOn, InUsUnitsIsInfoWithoutAMetricUnit) {
+    const auto truth = file("truth.csv",
+                            "segment,way_id,direction,from_m,to_m,iri_left,iri_right,mri,hri\n"
+                            "1+0000,1,forward,0,19.99,2,2,2,2\n");
+    const auto text = done("info", {"--units", "us", "--truth", truth});
+    EXPECT_THAT(text, AllOf(HasSubstr(" mi"), HasSubstr("IRI (MRI) in in/mi")));
+    EXPECT_EQ(metric_units_in(text), "");
+    const auto si = Json::parse(done("info", {"--json", "--truth", truth}));
+    const auto us = Json::parse(done("info", {"--json", "--truth", truth, "--units", "us"}));
+    EXPECT_NEAR(us.at("mi"), double(si.at("km")) / 1.609344, 0.001);
+    EXPECT_EQ(us.at("digest"), si.at("digest"));
+    EXPECT_NEAR(us.at("truth").at("all").at("mean_truth_in_per_mi"), 2 * 63.36, 0.01);
+    for (const auto* metric_name : {"\"km\"", "_m\":", "_km\":", "_mm", "\"iri\""}) {
+        EXPECT_THAT(us.dump(), Not(HasSubstr(metric_name)));
+    }
 }
 
 TEST_F(HandingOn, InUsUnitsIsAReportWithoutAMetricUnit) {
-    const auto sections = (folder_ / "sections.csv").string();
-    write_file(sections, "way_id,from_m,to_m\n1,0,100\n");
+    const auto sections = file("sections.csv", "way_id,from_m,to_m\n1,0,100\n");
     const std::vector<std::string> words{
         "--units", "us", "--compare-since", "2026-01", "--sections", sections};
     const auto html = read_file(file_of("report", "us.html", words));

@@ -21,6 +21,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[3]
 TRIP = SOURCE / "sample_data/comma2k19/comma2k19_rav4.trip.csv"
 QGIS = QgsApplication([], False)
 CLASSES = ["good (below 1.50 mm/m)", "fair (1.50 to 2.68 mm/m)", "poor (above 2.68 mm/m)"]
+US_CLASSES = ["good (below 95 in/mi)", "fair (95 to 170 in/mi)", "poor (above 170 in/mi)"]
 COLOURS = {"#2c7bb6", "#fee090", "#d7191c"}
 
 
@@ -57,13 +58,14 @@ class Qgis(unittest.TestCase):
     def tearDownClass(cls):
         cls.scratch.cleanup()
 
-    def expect_style(self, layer):
+    def expect_style(self, layer, classes=CLASSES, field="iri", alias="IRI (mm/m)", low="iri_low"):
         self.assertTrue(layer.isValid())
         self.assertEqual(layer.renderer().type(), "graduatedSymbol")
-        self.assertEqual([each.label() for each in layer.renderer().ranges()], CLASSES)
+        self.assertEqual([each.label() for each in layer.renderer().ranges()], classes)
         self.assertEqual([each.symbol().symbolLayerCount() for each in layer.renderer().ranges()], [2, 2, 2])
-        self.assertEqual(layer.fields()[layer.fields().indexOf("iri")].alias(), "IRI (mm/m)")
-        self.assertIn("iri_low", layer.mapTipTemplate())
+        self.assertEqual(layer.renderer().classAttribute(), field)
+        self.assertEqual(layer.fields()[layer.fields().indexOf(field)].alias(), alias)
+        self.assertIn(f'"{low}"', layer.mapTipTemplate())
         self.assertTrue(layer.labelsEnabled())
         self.assertEqual(layer.labeling().settings().fieldName, "name")
 
@@ -76,6 +78,20 @@ class Qgis(unittest.TestCase):
                 layer = QgsVectorLayer(str(file), "out", "ogr")
                 self.expect_style(layer)
                 self.assertTrue(COLOURS & colours_in(layer))
+
+    def test_opens_exports_in_units_of_the_united_states(self):
+        for suffix in ("geojson", "fgb", "shp", "gpkg"):
+            with self.subTest(suffix):
+                file = self.folder / f"us-{suffix}" / f"out.{suffix}"
+                file.parent.mkdir()
+                run("export", self.store, "-o", file, "--units", "us")
+                layer = QgsVectorLayer(f"{file}|layername=roughness" if suffix == "gpkg" else str(file), "out", "ogr")
+                field, low = ("iri_inmi", "low_inmi") if suffix == "shp" else ("iri_in_per_mi", "iri_low_in_per_mi")
+                self.expect_style(layer, US_CLASSES, field, "IRI (in/mi)", low)
+                self.assertTrue(COLOURS & colours_in(layer))
+                aliases = " ".join(each.alias() for each in layer.fields())
+                self.assertNotIn("mm/m", aliases)
+                self.assertNotIn("(m ", aliases)
 
     def test_reads_the_sld(self):
         run("export", self.store, "-o", self.folder / "sld.geojson")

@@ -34,12 +34,12 @@ TEST(StyleFiles, LieBesideLayersOfOtherPrograms) {
 
 TEST(StyleFiles, GiveWayToThoseThatUsersSaved) {
     const auto folder = test_folder();
-    write_style_files(folder / "out.shp", folder, *class_table("five"));
+    write_style_files(folder / "out.shp", folder, {*class_table("five")});
     EXPECT_THAT(content_of(folder / "out.qml"), HasSubstr("2.50 to 3.50 mm/m"));
-    write_style_files(folder / "out.shp", folder, *class_table("fhwa"));
+    write_style_files(folder / "out.shp", folder, {*class_table("fhwa")});
     EXPECT_THAT(content_of(folder / "out.qml"), Not(HasSubstr("2.50 to 3.50 mm/m")));
     written(folder, "out.qml", "<qgis>mine</qgis>");
-    write_style_files(folder / "out.shp", folder, *class_table("five"));
+    write_style_files(folder / "out.shp", folder, {*class_table("five")});
     EXPECT_EQ(content_of(folder / "out.qml"), "<qgis>mine</qgis>");
     EXPECT_THAT(content_of(folder / "out.sld"), HasSubstr("2.50 to 3.50 mm/m"));
 }
@@ -47,10 +47,10 @@ TEST(StyleFiles, GiveWayToThoseThatUsersSaved) {
 TEST(RoadStyle, IsWellFormedAndHasTheLimitsOfTheClasses) {
     const auto folder = test_folder();
     const auto& classes = *class_table("fhwa");
-    const auto qml = qml_style(classes);
+    const auto qml = qml_style({classes});
     EXPECT_THAT(qml, HasSubstr(R"(lower="1.499368687" upper="2.683080808")")); // 95 and 170 in/mi
     // 170 in/mi is fair, 95 is fair, too: 23 CFR 490.313.
-    const auto sld = sld_style(classes, "a<b");
+    const auto sld = sld_style({classes}, "a<b");
     EXPECT_THAT(sld, HasSubstr("<se:Name>a&lt;b</se:Name>"));
     EXPECT_THAT(sld,
                 HasSubstr("PropertyIsGreaterThanOrEqualTo><ogc:PropertyName>iri</ogc:PropertyName>"
