@@ -38,7 +38,10 @@ void add_options(CLI::App& parser,
         } else if (option.many) {
             parser.add_option(std::string{option.name}, values)->expected(1, -1);
         } else if (option.value.starts_with('[')) {
-            parser.add_option(std::string{option.name}, values)->expected(0, 1)->take_last();
+            parser.add_option(std::string{option.name}, values)
+                ->expected(0, 1)
+                ->allow_extra_args(false)
+                ->take_last();
         } else {
             parser.add_option(std::string{option.name}, values)
                 ->expected(1)

@@ -251,6 +251,9 @@ void XlsxWorkbook::begin_sheet(const std::string& name, std::vector<XlsxColumn> 
     state.rows = 0;
     state.formats.clear();
     worksheet_freeze_panes(state.sheet, 1, 0);
+    worksheet_set_landscape(state.sheet); // printed: all columns on a page, as many pages as needed
+    worksheet_fit_to_pages(state.sheet, 1, 0);
+    state.expect(worksheet_repeat_rows(state.sheet, 0, 0));
     for (std::size_t i = 0; i < state.columns.size(); ++i) {
         const auto& [column, type] = state.columns[i];
         const auto col = static_cast<lxw_col_t>(i);

@@ -33,8 +33,8 @@ struct FrameGroup {
     std::uint64_t values_at = 0; ///< of variable length: their block or group
 };
 
-/// Head of a frame whose data lie at a place among values of variable length.
-struct LateFrame {
+/// Frame, with the place of its data among values of variable length.
+struct FrameHead {
     double t_s;
     double bus;
     std::uint64_t values_at;
@@ -43,7 +43,7 @@ struct LateFrame {
     bool is_extended;
 };
 
-/// Frames of one data group after another, as rows.
+/// Frames of all groups, as rows.
 class FrameReader {
 public:
     FrameReader(std::string_view bytes, const TableMapping& mapping, const std::string& name)
@@ -67,6 +67,7 @@ public:
                 read_data_group(i);
             }
         }
+        add_rows();
         if (rows_.sample_count() == 0) {
             throw InputError{
                 fmt::format("{}: {} frames, none of them with a mapped signal, expected "
@@ -131,7 +132,6 @@ private:
     }
 
     void read_data_group(std::size_t i) {
-        late_.clear();
         each_record(
             blocks_,
             layout_,
@@ -142,19 +142,27 @@ private:
                 }
             },
             [&](const MdfGroup& group, std::string_view value) { keep(group, value); });
-        for (const auto& late : late_) {
-            auto frame = frame_of(late);
-            set_late_bytes(frame, values_[late.values_at], late.place);
+    }
+
+    /// Adds the rows of all frames by their times: each group has its own.
+    void add_rows() {
+        std::ranges::stable_sort(frames_, {}, &FrameHead::t_s);
+        for (const auto& head : frames_) {
+            auto frame = frame_of(head);
+            set_bytes(frame, values_[head.values_at], head.place);
             decoder_.add(frame, rows_);
         }
     }
 
-    /// Keeps a value of a group of variable length as a block SD has it: behind its length.
-    void keep(const MdfGroup& group, std::string_view value) {
+    /// Keeps a value as a block SD has it: behind its length. \returns its place.
+    std::uint64_t keep(const MdfGroup& group, std::string_view value) {
+        auto& values = values_[group.at];
+        const auto place = values.size();
         const auto length = static_cast<std::uint32_t>(value.size());
         std::array<char, sizeof length> head{};
         std::memcpy(head.data(), &length, sizeof length);
-        values_[group.at].append(head.data(), head.size()).append(value);
+        values.append(head.data(), head.size()).append(value);
+        return place;
     }
 
     void take(const MdfGroup& group, const FrameGroup& frames, std::string_view record) {
@@ -175,7 +183,7 @@ private:
         }
         const auto bits = static_cast<std::uint32_t>(id);
         const bool may_be_extended = (bits & extended_bit) != 0 || bits > max_standard_id;
-        LateFrame head{.t_s = begin_s_.value_or(0) + t_s,
+        FrameHead head{.t_s = begin_s_.value_or(0) + t_s,
                        .bus = number(frames.bus, no_bus),
                        .values_at = frames.values_at,
                        .place = 0,
@@ -184,39 +192,37 @@ private:
         const auto& bytes = *frames.bytes;
         if (bytes.type == MdfChannel::variable_length) {
             std::memcpy(&head.place, record.data() + bytes.byte_offset, sizeof head.place);
-            late_.push_back(head);
-            return;
+        } else {
+            const auto whole = bytes.bit_count / 8;
+            const double stated = number(frames.length, whole);
+            const auto size =
+                stated >= 0 && stated < whole ? static_cast<std::size_t>(stated) : whole;
+            head.values_at = group.at;
+            head.place = keep(group, record.substr(bytes.byte_offset, size));
         }
-        auto frame = frame_of(head);
-        const auto whole = bytes.bit_count / 8;
-        const double stated = number(frames.length, whole);
-        const auto size = stated >= 0 && stated < whole ? static_cast<std::size_t>(stated) : whole;
-        set_bytes(frame, record.substr(bytes.byte_offset, size));
-        decoder_.add(frame, rows_);
+        frames_.push_back(head);
     }
 
-    static CanFrame frame_of(const LateFrame& head) {
+    static CanFrame frame_of(const FrameHead& head) {
         return {.t_s = head.t_s,
                 .id = head.id,
                 .is_extended = head.is_extended,
                 .bus = head.bus == no_bus ? std::string{} : fmt::format("{:g}", head.bus)};
     }
 
-    static void set_bytes(CanFrame& frame, std::string_view bytes) {
-        const auto size = std::min(bytes.size(), frame.bytes.size());
-        std::memcpy(frame.bytes.data(), bytes.data(), size);
-        frame.size = static_cast<std::uint8_t>(size);
-    }
-
     /// Takes the data at a place, or none where the place is wrong: the frame is too short then.
-    static void set_late_bytes(CanFrame& frame, std::string_view values, std::uint64_t place) {
+    static void set_bytes(CanFrame& frame, std::string_view values, std::uint64_t place) {
         std::uint32_t length = 0;
         if (place > values.size() || values.size() - place < sizeof length) {
             return;
         }
         std::memcpy(&length, values.data() + place, sizeof length);
         const auto bytes = values.substr(place + sizeof length);
-        set_bytes(frame, length <= bytes.size() ? bytes.substr(0, length) : std::string_view{});
+        if (length <= bytes.size()) {
+            frame.size =
+                static_cast<std::uint8_t>(std::min<std::size_t>(length, frame.bytes.size()));
+            std::memcpy(frame.bytes.data(), bytes.data(), frame.size);
+        }
     }
 
     MdfBlocks blocks_;
@@ -226,7 +232,7 @@ private:
     std::optional<double> begin_s_;
     std::map<const MdfGroup*, FrameGroup> groups_;
     std::map<std::uint64_t, std::string> values_; ///< of variable length, by block or group
-    std::vector<LateFrame> late_;
+    std::vector<FrameHead> frames_;
     std::size_t count_ = 0;
 };
 

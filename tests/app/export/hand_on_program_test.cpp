@@ -193,8 +193,8 @@ TEST_F(HandingOn, InUsUnitsHasNamesOfTenBytesInAShapefile) {
     EXPECT_THAT(style, HasSubstr(R"(attr="iri_inmi")"));
     EXPECT_THAT(style, HasSubstr(R"(lower="95.000000000" upper="170.000000000")"));
     EXPECT_THAT(style, HasSubstr("fair (95 to 170 in/mi)"));
-    EXPECT_THAT(style, HasSubstr(R"(field="trend_inmi" name="Trend (in/mi per year)")"));
-    EXPECT_THAT(style, HasSubstr(R"(field="from_ft" name="From (ft along the way)")"));
+    EXPECT_THAT(style, HasSubstr(R"~(field="trend_inmi" name="Trend (in/mi per year)")~"));
+    EXPECT_THAT(style, HasSubstr(R"~(field="from_ft" name="From (ft along the way)")~"));
     EXPECT_EQ(metric_units_in(style.substr(style.find("<aliases>"))), "");
     const auto sld = read_file(folder_ / "us.sld");
     EXPECT_THAT(sld,

@@ -53,6 +53,11 @@ TEST(XlsxWorkbook, HoldsNumbersAndDaysAsSuchAndTextAsText) {
     EXPECT_THAT(sheets[0].xml, Not(HasSubstr("<f>")));
 }
 
+TEST(XlsxWorkbook, IsPrintedWithAllColumnsOnAPage) {
+    const auto xml = read_xlsx(example(test_folder() / "a.xlsx"))[0].xml;
+    EXPECT_THAT(xml, AllOf(HasSubstr("orientation=\"landscape\""), HasSubstr("fitToHeight=\"0\"")));
+}
+
 TEST(XlsxWorkbook, LeavesUnknownCellsEmptyAndKeepsWhatNoNumberHolds) {
     const auto rows = read_xlsx(example(test_folder() / "a.xlsx"))[0].rows;
     const auto& second = rows[2];
