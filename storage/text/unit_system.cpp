@@ -57,6 +57,10 @@ std::string name_in_us(std::string_view name, const Conversion& conversion) {
     if (name == conversion.unit) { // "km"
         return std::string{conversion.us_unit};
     }
+    if (constexpr std::string_view of_iri = "_mm_per_m"; name.ends_with(of_iri)) {
+        return fmt::format(
+            "{}{}", name.substr(0, name.size() - of_iri.size()), conversion.us_suffix);
+    }
     if (!name.ends_with(conversion.suffix)) {
         return fmt::format("{}{}", name, conversion.us_suffix);
     }
