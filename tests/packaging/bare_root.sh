@@ -74,7 +74,8 @@ import macadam
 import numpy
 
 profile = 0.005 * numpy.sin(numpy.arange(4000) * 2 * numpy.pi * 0.05 / 6)  # 200 m of waves of 6 m
-assert 5 < macadam.iri(profile, step_m=0.05)["iri"].mean() < 15, macadam.iri(profile, step_m=0.05)
+roughness = macadam.iri(profile, step_m=0.05)["iri_profile"]
+assert 3 < roughness[0] < 8, roughness  # its mean slope is 3.3 mm/m, and such waves count more
 trace = macadam.trace(sys.argv[1])
 assert len(trace["iri"]) > 10, trace
 with macadam.open("/home/driver/roads.gpkg") as roads:
