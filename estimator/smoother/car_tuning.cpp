@@ -24,6 +24,10 @@ constexpr double max_friction_n = 120; // above this a suspension is stuck
 // (docs/decisions/42-friction-has-a-prior.md).
 constexpr double friction_model_sd_n = 12;
 
+/// Place of the sensor ahead of the centre of gravity, over the wheelbase, in a car whose dynamic
+/// index is not known either: passengers and luggage move the centre, as in vehicle_prior.cpp.
+constexpr double imu_x_sd = 0.03;
+
 constexpr double furthest = 1.5; // from the stated values, in prior standard deviations
 constexpr double trust = 0.25;   // weight of the likelihood, which ignores the model error
 constexpr int steps = 2;
@@ -84,6 +88,9 @@ Unknowns of_car(const Vehicle& vehicle) {
         const bool has_it = vehicle.axles || (name != "dynamic_index" && name != found_imu_x);
         if (has_it && found != vehicle.uncertainty.end() && found->second > 0) {
             unknowns.push_back({move, found->second, relative_step});
+            if (name == "dynamic_index" && !vehicle.uncertainty.contains(found_imu_x)) {
+                unknowns.push_back({imu_x_plus, imu_x_sd, relative_step});
+            }
         }
     }
     return unknowns;

@@ -23,7 +23,8 @@ struct TunedCar {
 /// The likelihood of the readings, computed from the smoother's innovations, therefore has a
 /// maximum near the true car. Dry friction is estimated unless it is stated, from the likelihood
 /// and from what is usual; springs, tyres and dynamic index are moved within their stated
-/// uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty of all others, of
+/// uncertainty, and with the dynamic index the sensor's place along the car (Gauss-Newton on the
+/// likelihood and that prior). The uncertainty of all others, of
 /// mass and damping above all, goes into iri_sd.
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored

@@ -105,5 +105,16 @@ TEST(ExactCar, TellsADynamicIndexThatItsFileDoesNotState) {
     }
 }
 
+TEST(ExactCar, TellsASensorThatIsNotWhereItsFileSays) {
+    const auto stated = exact_car();
+    for (const double off_m : {-0.15, 0.15}) {
+        auto driven = stated;
+        driven.imu.x_m += off_m;
+        const auto stretch = drive_over(measured_road(), driven);
+        const auto tuned = car_in(stretch, stated, of_map()).vehicle;
+        EXPECT_NEAR(tuned.imu.x_m, driven.imu.x_m, 0.08);
+    }
+}
+
 } // namespace
 } // namespace macadam::testing
