@@ -78,8 +78,8 @@ roughness = macadam.iri(profile, step_m=0.05)["iri_profile"]
 assert 3 < roughness[0] < 8, roughness  # its mean slope is 3.3 mm/m, and such waves count more
 trace = macadam.trace(sys.argv[1])
 assert len(trace["iri"]) > 10, trace
-with macadam.open("/home/driver/roads.gpkg") as roads:
-    assert len(roads.segments()["segment"]) > 10
+roads = macadam.open("/home/driver/roads.gpkg")
+assert len(roads.segments(bbox=(-180, -90, 180, 90))["segment"]) > 10
 PYTHON
 
 inside apt-get -q -y purge --autoremove python3-macadam macadam
