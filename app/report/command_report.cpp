@@ -113,18 +113,19 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
     if (since_ms && arguments.is_given("--class")) { // the class may be what changed
         throw UsageError{"--compare-since and --class cannot be combined"};
     }
-    return {.store = store,
-            .output = *output,
-            .report = {.title = arguments.value("--title").value_or(wording("title")),
-                       .worst = parse_worst(arguments),
-                       .sections = std::move(sections),
-                       .filter = std::move(filter),
-                       .selection = text_of_filter(arguments),
-                       .since_ms = since_ms,
-                       .wording = wording,
-                       .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
-                       .style = parse_style(arguments, look.look)},
-            .pdf = parse_paper(arguments, ending)};
+    // One after the other: GCC 12 destroys a nested aggregate twice where a later member's
+    // initializer throws.
+    const auto pdf = parse_paper(arguments, ending);
+    ReportConfig report{.title = arguments.value("--title").value_or(wording("title")),
+                        .worst = parse_worst(arguments),
+                        .sections = std::move(sections),
+                        .filter = std::move(filter),
+                        .selection = text_of_filter(arguments),
+                        .since_ms = since_ms,
+                        .wording = wording,
+                        .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
+                        .style = parse_style(arguments, look.look)};
+    return {.store = store, .output = *output, .report = std::move(report), .pdf = pdf};
 }
 
 /// Rejects options that the reference report does not support.

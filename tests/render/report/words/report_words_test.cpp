@@ -104,8 +104,8 @@ TEST(Words, RefuseAMissingKeyAndAMissingValue) {
     EXPECT_EQ(say(languages().front(), "cars.one", {{"count", "1"}}), "1 car");
 }
 
-/// Sentences of the English catalogue between their places, if they are more than a name or a word
-/// that both languages have.
+/// Sentences of the report in the English catalogue between their places, if they are more than a
+/// name or a word that both languages have.
 std::vector<std::string> english_pieces() {
     std::vector<std::string> pieces;
     for (const auto& [key, text] : languages().front().messages) {
@@ -115,7 +115,8 @@ std::vector<std::string> english_pieces() {
         for (const char c : std::string{text} + "{") {
             if (c == '{') {
                 const bool alike = german->text.find(piece) != std::string_view::npos;
-                if (piece.size() >= 5 && !alike) {
+                const bool is_of_page = std::string_view{key}.starts_with("site.");
+                if (piece.size() >= 5 && !alike && !is_of_page) {
                     pieces.push_back(piece);
                 }
                 piece.clear();
