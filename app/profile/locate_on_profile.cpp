@@ -12,11 +12,11 @@ constexpr double sure_correlation = 0.5; // over 300 m; wrong positions stay bel
 } // namespace
 
 ProfilePosition locate_on_profile(std::span<const Stretch> stretches,
-                                const RoadProfile& road,
-                                const Vehicle& vehicle,
-                                std::optional<double> given_m,
-                                const std::filesystem::path& trip,
-                                const std::filesystem::path& profile) {
+                                  const RoadProfile& road,
+                                  const Vehicle& vehicle,
+                                  std::optional<double> given_m,
+                                  const std::filesystem::path& trip,
+                                  const std::filesystem::path& profile) {
     if (given_m) {
         return {*given_m, {}};
     }

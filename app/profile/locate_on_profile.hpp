@@ -19,11 +19,11 @@ struct ProfilePosition {
 ///
 /// \throws InputError  if the trip cannot be located.
 ProfilePosition locate_on_profile(std::span<const Stretch> stretches,
-                                const RoadProfile& road,
-                                const Vehicle& vehicle,
-                                std::optional<double> given_m,
-                                const std::filesystem::path& trip,
-                                const std::filesystem::path& profile);
+                                  const RoadProfile& road,
+                                  const Vehicle& vehicle,
+                                  std::optional<double> given_m,
+                                  const std::filesystem::path& trip,
+                                  const std::filesystem::path& profile);
 
 std::string position_text(const ProfilePosition& place);
 

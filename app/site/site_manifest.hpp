@@ -32,8 +32,8 @@ struct SiteManifest {
 std::string
 manifest_json(const StoreReader& store, const SiteManifest& manifest, const SiteTotals& totals);
 
-/// Returns the months with trips; of a publication, those in which it has values. Ascending, at most
-/// 120.
+/// Returns the months with trips; of a publication, those in which it has values. Ascending, at
+/// most 120.
 std::vector<std::string> site_months(const StoreReader& store);
 
 /// Returns the period of a month, "2026-03".
