@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 
+#include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -52,7 +53,10 @@ std::uint16_t port_of(int listening_socket) {
 }
 
 bool is_loopback(std::string_view host) {
-    return host.starts_with("127.") || host == "::1";
+    in_addr address{}; // a name such as 127.example.org is none
+    constexpr std::uint32_t net = 127U << 24U, net_mask = 255U << 24U;
+    return host == "::1" || (inet_pton(AF_INET, std::string{host}.c_str(), &address) == 1 &&
+                             (ntohl(address.s_addr) & net_mask) == net);
 }
 
 std::string peer_of(int connected_socket) {
