@@ -18,12 +18,14 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-/// Returns "::1" for "[::1]:8080".
+/// Returns "::1" for "[::1]:8080", and "" for what is no host.
 std::string_view name_of_host(std::string_view host) {
-    if (host.starts_with('[')) {
-        return host.substr(1, std::min(host.find(']'), host.size()) - 1);
+    const auto end = host.starts_with('[') ? host.find(']') : host.find(':');
+    const auto port = end == std::string_view::npos ? "" : host.substr(end);
+    if (!host.starts_with('[')) {
+        return host.substr(0, end);
     }
-    return host.substr(0, host.find(':'));
+    return port == "]" || port.starts_with("]:") ? host.substr(1, end - 1) : "";
 }
 
 bool is_known_host(const std::string& host, const HttpServerConfig& config) {
@@ -33,7 +35,9 @@ bool is_known_host(const std::string& host, const HttpServerConfig& config) {
     }
     const auto name = name_of_host(host);
     return name == "localhost" || is_loopback(name) ||
-           std::ranges::find(config.hosts, host) != config.hosts.end();
+           std::ranges::any_of(config.hosts, [&](const std::string& known) {
+               return name == name_of_host(lower_case(known)); // a proxy may leave out the port
+           });
 }
 
 std::size_t size_of(const RequestHead& head) {
@@ -51,7 +55,7 @@ std::size_t count_of(const RequestHead& head, std::string_view name) {
 }
 
 std::optional<HttpResponse> refused_body(const HttpRequest& request) {
-    if (!request.header("transfer-encoding").empty()) {
+    if (request.headers.contains("transfer-encoding")) {
         return http_problem(413, "requests have no body here");
     }
     const auto length = request.header("content-length");
@@ -72,7 +76,10 @@ decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest
         return http_problem(431, fmt::format("expected at most {} bytes", config.max_head_bytes));
     }
     for (const auto& [name, value] : head.headers) {
-        request.headers.emplace(lower_case(name), value);
+        const auto [header, is_first] = request.headers.emplace(lower_case(name), value);
+        if (!is_first) { // lines of one list (RFC 9110, 5.3)
+            header->second.append(", ").append(value);
+        }
     }
     if (count_of(head, "host") != 1) {
         return http_problem(400, "expected one header Host");
