@@ -1,5 +1,6 @@
 #include "app/http/response_finish.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "storage/files/gzip.hpp"
 #include "storage/text/text.hpp"
 
@@ -34,19 +35,26 @@ bool any_element(std::string_view list, const Visit& visit) {
     return false;
 }
 
-/// Tests whether a client takes gzip: named, or by *, without q=0.
+/// Tests whether a client takes gzip: named, or else by *, without q=0.
 bool takes_gzip(std::string_view accept_encoding) {
-    return any_element(accept_encoding, [](std::string_view element) {
+    std::optional<double> named, any;
+    any_element(accept_encoding, [&](std::string_view element) {
         const auto semicolon = element.find(';');
-        const auto name = trimmed(element.substr(0, semicolon));
+        const auto name = in_lower_case(trimmed(element.substr(0, semicolon)));
         const auto rest = semicolon == std::string_view::npos ? std::string_view{}
                                                               : element.substr(semicolon + 1);
         const auto equals = rest.find('=');
         const auto weight = equals == std::string_view::npos
                                 ? std::optional{1.0}
                                 : parse_number(rest.substr(equals + 1));
-        return (name == "gzip" || name == "*") && weight.value_or(0) > 0;
+        if (name == "gzip") {
+            named = weight.value_or(0);
+        } else if (name == "*") {
+            any = weight.value_or(0);
+        }
+        return false;
     });
+    return named.value_or(any.value_or(0)) > 0;
 }
 
 /// Tests whether a client has a response: weak comparison, as RFC 9110, 13.1.2 asks.
@@ -77,7 +85,6 @@ void encode(const HttpRequest& request, HttpResponse& response) {
     if (!response.is_gzipped && !is_compressible(response.type)) {
         return;
     }
-    response.headers.emplace_back("Vary", "Accept-Encoding");
     const bool takes = takes_gzip(request.header("accept-encoding"));
     if (response.is_gzipped && !takes) {
         response.body = gunzipped(response.body);
@@ -146,6 +153,9 @@ std::optional<BodyRange> parse_range(std::string_view header, std::uint64_t size
 
 FinishedResponse
 finish(const HttpRequest& request, HttpResponse response, std::string_view allowed_origin) {
+    if (response.status == 200 && (response.is_gzipped || is_compressible(response.type))) {
+        response.headers.emplace_back("Vary", "Accept-Encoding");
+    }
     if (response.status == 200 && !response.etag.empty() &&
         has_match(request.header("if-none-match"), fmt::format("\"{}\"", response.etag))) {
         response.status = 304;
@@ -162,7 +172,8 @@ finish(const HttpRequest& request, HttpResponse response, std::string_view allow
         finished.headers.emplace_back("Accept-Ranges", "bytes");
         const auto if_range = request.header("if-range");
         const bool is_same = if_range.empty() || if_range == fmt::format("\"{}\"", response.etag);
-        if (const auto range = parse_range(asked, size); range && is_same) {
+        const bool is_head = request.method == "HEAD"; // ranges are for GET (RFC 9110, 14.2)
+        if (const auto range = parse_range(asked, size); range && is_same && !is_head) {
             finished.part = *range;
             finished.status = range->size == 0 ? 416 : 206;
             finished.headers.emplace_back(
