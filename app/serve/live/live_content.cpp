@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -48,22 +49,26 @@ void LiveContent::work(const std::stop_token& stop) {
     std::string made;
     while (true) {
         std::unique_lock lock{mutex_};
-        if (!asked_.wait(lock, stop, [&] { return wanted_ != made; })) {
+        if (!asked_.wait(lock, stop, [&] { return wanted_ != made; }) || stop.stop_requested()) {
             return;
         }
         made = wanted_;
         lock.unlock();
         const auto begin = Clock::now();
+        Clock::duration rest{};
         try {
             make(made, stop);
         } catch (const std::exception& error) {
             if (!stop.stop_requested()) {
                 console_.warn(fmt::format("the tiles could not be made: {}", error.what()));
             }
+            made.clear(); // once more, though nothing changes: the disk may have been full
+            rest = std::chrono::minutes{1};
         }
         constexpr int rests = 9; // times as long as it worked
         lock.lock();
-        asked_.wait_for(lock, stop, rests * (Clock::now() - begin), [] { return false; });
+        rest = std::max(rest, rests * (Clock::now() - begin));
+        asked_.wait_for(lock, stop, rest, [] { return false; });
     }
 }
 
@@ -74,6 +79,9 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
     {
         const std::lock_guard lock{mutex_};
         tiles_ = tiles;
+        if (tiles->count() == 0) { // what the page shows was deleted, or is to be published first
+            page_.reset();
+        }
     }
     if (!has_page_ || tiles->count() == 0) {
         return;

@@ -24,6 +24,10 @@ TileSet::TileSet(const StoreReader& store,
             places_.emplace(tile, file_.append(bytes));
         },
         progress);
+    if (places_.empty()) {                     // no box is around nothing
+        constexpr double lat_deg = 85.0511288; // of Web Mercator
+        box_ = {-180, -lat_deg, 180, lat_deg};
+    }
 }
 
 std::optional<std::string> TileSet::tile(const TileId& id) const {
