@@ -140,8 +140,12 @@ struct HttpServer::Impl {
                const char*,
                std::size_t* upload_size,
                void** exchange) -> MHD_Result {
-                return static_cast<Impl*>(server)->handle(
-                    connection, method, upload_size, static_cast<Exchange*>(*exchange));
+                try { // nothing may be thrown through the library, which is C
+                    return static_cast<Impl*>(server)->handle(
+                        connection, method, upload_size, static_cast<Exchange*>(*exchange));
+                } catch (const std::exception&) {
+                    return MHD_NO; // ends the connection
+                }
             },
             this,
             MHD_OPTION_LISTEN_SOCKET,

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -153,11 +154,10 @@ HttpResponse answered(Pages& pages, const ApiContext& context) {
         } catch (const SelectionTooLong&) {
             response = http_problem(503, "this selection takes too long; narrow it by bbox");
         } catch (const InputError& error) {
-            // of the database: its file has no place in what clients see
-            auto what = std::string{error.what()};
-            const auto file = context.store.file().string() + ": ";
-            what = what.starts_with(file) ? what.substr(file.size()) : what;
-            response = http_problem(400, what);
+            if (std::string_view{error.what()}.starts_with(context.store.file().string())) {
+                throw; // of the database, for its operator alone
+            }
+            response = http_problem(400, error.what());
         }
         response.route = pattern;
         return response;
@@ -192,7 +192,7 @@ void log_request(const HttpRecord& record) {
 
 /// Handlers that count and log, and answer /health and /metrics.
 HttpHandlers common_handlers(ServerMetrics& metrics,
-                             const HttpServer* const& server,
+                             const std::atomic<const HttpServer*>& server,
                              const ServedAddress& address,
                              const Console& console) {
     HttpHandlers handlers;
@@ -202,19 +202,28 @@ HttpHandlers common_handlers(ServerMetrics& metrics,
                 .body = "{\"status\":\"pass\"}\n", .cache_control = "no-store", .route = "/health"};
         }
         if (request.path == "/metrics") {
+            const auto* const running = server.load(); // null while it starts
             return HttpResponse{.type = "text/plain; version=0.0.4",
-                                .body = metrics.text(server == nullptr ? 0 : server->connections()),
+                                .body =
+                                    metrics.text(running == nullptr ? 0 : running->connections()),
                                 .cache_control = "no-store",
                                 .route = "/metrics"};
         }
         return std::nullopt;
     };
-    handlers.record = [&, logs = address.has_access_log](const HttpRecord& record) {
-        metrics.add(record);
-        if (logs) {
-            log_request(record);
-        }
-    };
+    handlers.record =
+        [&, logs = address.has_access_log, has_warned = false](const HttpRecord& record) mutable {
+            metrics.add(record);
+            try {
+                if (logs) {
+                    log_request(record);
+                }
+            } catch (const InputError& error) { // its disk is full, or its reader has gone
+                if (!std::exchange(has_warned, true)) {
+                    console.warn(fmt::format("the access log has gaps: {}", error.what()));
+                }
+            }
+        };
     handlers.failed = [&](const std::string& /*path*/, const std::string& what) {
         console.warn(fmt::format("a request failed: {}", what));
     };
@@ -243,24 +252,37 @@ void serve_database(const std::filesystem::path& file,
     live.refresh(store.version());
     Pages pages{.features = {}, .live = live};
     ServerMetrics metrics;
-    const HttpServer* running = nullptr;
+    std::atomic<const HttpServer*> running = nullptr;
     auto handlers = common_handlers(metrics, running, address, console);
     handlers.answer = [&](const HttpRequest& request, std::size_t worker) {
         const auto version = store.version();
-        return answered(pages,
-                        {.request = request,
-                         .store = store.reader(worker),
-                         .version = version,
-                         .base = base_of(request, address)});
+        try {
+            return answered(pages,
+                            {.request = request,
+                             .store = store.reader(worker),
+                             .version = version,
+                             .base = base_of(request, address)});
+        } catch (const InputError& error) {
+            console.warn(fmt::format("a request failed: {}", error.what()));
+            return http_problem(503, "the database cannot be read now");
+        }
     };
     HttpServer server{config, std::move(handlers)};
     running = &server;
     started(server.port());
+    std::string trouble;
     while (!console.stop().stop_requested()) {
         wait_for_stop(console.stop());
-        if (store.look()) {
-            console.detail("the database has changed");
-            live.refresh(store.version());
+        try {
+            if (store.look()) {
+                console.detail("the database has changed");
+                live.refresh(store.version());
+            }
+            trouble.clear();
+        } catch (const InputError& error) { // replaced or locked: what was read before stays
+            if (std::exchange(trouble, error.what()) != error.what()) {
+                console.warn(error.what());
+            }
         }
     }
     server.drain(drain_time);
@@ -273,7 +295,7 @@ void serve_folder(const std::filesystem::path& folder,
                   const Console& console,
                   const std::function<void(std::uint16_t port)>& started) {
     ServerMetrics metrics;
-    const HttpServer* running = nullptr;
+    std::atomic<const HttpServer*> running = nullptr;
     auto handlers = common_handlers(metrics, running, address, console);
     handlers.answer = [&](const HttpRequest& request, std::size_t) {
         return file_response(folder, request.path)

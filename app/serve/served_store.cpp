@@ -67,15 +67,19 @@ bool ServedStore::look() {
     if (const auto inode = inode_of(file_); inode == 0) {
         throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
     } else if (!watch_ || watch_->inode != inode) {
-        const bool replaced = watch_ != nullptr;
-        watch_ = std::make_unique<Watch>(file_);
-        epoch_ += replaced ? 1 : 0;
+        auto watch = std::make_unique<Watch>(file_);
+        if (watch_) { // replaced, perhaps by a database of a crowd
+            shows_published_alone_ = open().shows_published_alone();
+            ++epoch_;
+        }
+        watch_ = std::move(watch);
     }
     const auto data_version = watch_->database.number("PRAGMA data_version");
-    if (std::exchange(watch_->data_version, data_version) == data_version) {
+    if (watch_->data_version == data_version) {
         return false;
     }
     auto version = version_now();
+    watch_->data_version = data_version; // not before, as the above may throw
     const std::lock_guard lock{mutex_};
     return std::exchange(version_, std::move(version)) != version_;
 }

@@ -4,6 +4,7 @@
 #include "estimator/common/error.hpp"
 #include "mapping/geometry/antimeridian.hpp"
 #include "mapping/geometry/area.hpp"
+#include "mapping/privacy/release_batches.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/utc.hpp"
@@ -74,11 +75,13 @@ HttpResponse page_response(const ApiContext& context,
     const auto position = query.after        ? "&after=" + percent_encoded(*query.after)
                           : query.offset > 0 ? fmt::format("&offset={}", query.offset)
                                              : "";
-    std::vector<ApiLink> links{{address(position), "self", geojson_type},
+    const auto asked_format = context.request.parameter("f");
+    const auto format = asked_format ? "&f=" + percent_encoded(*asked_format) : "";
+    std::vector<ApiLink> links{{address(position) + format, "self", geojson_type},
                                {address(position) + "&f=html", "alternate", "text/html"},
                                {here, "collection", "application/json"}};
     if (!page.next.empty()) {
-        links.push_back({address("&" + page.next), "next", geojson_type});
+        links.push_back({address("&" + page.next) + format, "next", geojson_type});
     }
     JsonObject collection;
     collection.add("type", "FeatureCollection")
@@ -125,6 +128,18 @@ bool is_seen_in(const Feature& feature,
     const auto first = day("first_seen"), last = day("last_seen");
     return first && last && (!period.until_ms || *first <= utc_day(*period.until_ms - 1)) &&
            (!period.from_ms || *last >= utc_day(*period.from_ms));
+}
+
+/// Refuses here what the database would refuse, for whose failures a client is not to blame.
+void expect_known_period(const StoreReader& store, const ItemsQuery& query) {
+    const auto is_whole = [](const std::optional<std::int64_t>& border_ms) {
+        return !border_ms || month_begin_ms(*border_ms) == *border_ms;
+    };
+    if (query.period && store.shows_published_alone() &&
+        !(is_whole(query.period->from_ms) && is_whole(query.period->until_ms))) {
+        throw UsageError{"values of a crowd database are given by whole months, expected a "
+                         "datetime such as 2026-03-01/2026-05-31"};
+    }
 }
 
 } // namespace
@@ -215,6 +230,7 @@ HttpResponse FeaturesApi::items(const ApiContext& context, std::string_view id) 
 HttpResponse FeaturesApi::segment_items(const ApiContext& context) {
     const auto& columns = columns_of("segments");
     const auto query = parse_items_query(context.request, columns);
+    expect_known_period(context.store, query);
     const auto keys = selections_.keys(context.store, context.version, query);
     auto first = std::min(query.offset, keys->size());
     if (query.after) {

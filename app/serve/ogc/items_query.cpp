@@ -141,7 +141,7 @@ ItemsQuery parse_items_query(const HttpRequest& request, std::span<const Feature
                 return equals_text(column.type, column.value(feature.row), value);
             });
         }
-        query.rest += pair_text(name, value);
+        query.rest += name == "f" ? "" : pair_text(name, value);
         query.selection += selects ? pair_text(name, value) : "";
     }
     return query;
