@@ -125,6 +125,8 @@ TEST(HttpServer, RefusesHostileHeads) {
              Refusal{"GET / HTTP/1.1\r\n", 400},
              Refusal{"GET / HTTP/1.1\r\nHost: localhost\r\nHost: b\r\n", 400},
              Refusal{"GET / HTTP/1.1\r\nHost: evil.example\r\n", 421},
+             Refusal{"GET / HTTP/1.1\r\nHost: 127.evil.example\r\n", 421},
+             Refusal{"GET / HTTP/1.1\r\nHost: [::1].evil.example\r\n", 421},
              Refusal{"GET / HTTP/1.1\r\nHost: localhost\"><script>\r\n", 421},
              Refusal{"GET /%zz HTTP/1.1\r\nHost: localhost\r\n", 400},
              Refusal{"GET /a%00b HTTP/1.1\r\nHost: localhost\r\n", 400},
