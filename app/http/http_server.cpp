@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t max_unread_bytes = 256U << 20U;
 
 /// Bytes that libmicrohttpd keeps for each connection: its head, and the head of the response.
-constexpr std::size_t connection_bytes = 40U * 1024;
+constexpr std::size_t connection_bytes = std::size_t{40} * 1024;
 
 /// Request with its response, from its first line until the response is sent.
 struct Exchange {

@@ -25,12 +25,12 @@ struct HttpServerConfig {
 
     std::size_t max_connections = 2000;
     std::size_t max_per_address = 64; ///< connections; behind a proxy, requests at work
-    std::size_t max_head_bytes = 16U * 1024;
-    std::size_t max_target_bytes = 8U * 1024;
+    std::size_t max_head_bytes = std::size_t{16} * 1024;
+    std::size_t max_target_bytes = std::size_t{8} * 1024;
     std::size_t max_waiting = 512; ///< requests that wait for a worker
     std::chrono::milliseconds head_time{10'000};
-    std::chrono::milliseconds response_time{60'000}; ///< and 1 s more for each slowest_bytes
-    std::size_t slowest_bytes = 64U * 1024;          ///< a second, of a reader
+    std::chrono::milliseconds response_time{60'000};    ///< and 1 s more for each slowest_bytes
+    std::size_t slowest_bytes = std::size_t{64} * 1024; ///< a second, of a reader
 };
 
 /// Measurement of one answered request.

@@ -19,7 +19,6 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>

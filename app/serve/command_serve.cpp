@@ -6,8 +6,6 @@
 #include "app/parallel/jobs_option.hpp"
 #include "app/serve/api_server.hpp"
 
-#include "estimator/common/error.hpp"
-
 #include <fmt/format.h>
 
 #include <array>

@@ -2,9 +2,6 @@
 
 #include "storage/text/text.hpp"
 
-#include <cstdint>
-#include <variant>
-
 namespace macadam {
 
 std::string feature_text(const Feature& feature,

@@ -3,7 +3,6 @@
 #include "storage/exports/export.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace macadam {
 namespace {

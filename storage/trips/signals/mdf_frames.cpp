@@ -1,7 +1,6 @@
 #include "storage/trips/signals/mdf_reader.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/trips/mappings/dbc.hpp"
 #include "storage/trips/signals/can_decoder.hpp"
 #include "storage/trips/signals/mdf_blocks.hpp"
 #include "storage/trips/signals/mdf_layout.hpp"

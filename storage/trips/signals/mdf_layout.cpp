@@ -1,6 +1,5 @@
 #include "storage/trips/signals/mdf_layout.hpp"
 
-#include "estimator/common/error.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/format.h>
