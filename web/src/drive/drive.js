@@ -116,7 +116,8 @@ async function homeView() {
     items.length > 0 ? element('ul', { class: 'trips' }, ...items) : element('p', { class: 'soft' }, words('no_trips')),
     element('div', { class: 'deeds' },
       button('car_heading', () => show(carView), { class: 'plain' }),
-      button('privacy_again', () => show(privacyView), { class: 'plain' })),
+      button('privacy_again', () => show(privacyView), { class: 'plain' }),
+      element('a', { class: 'plain', href: '../' }, words('to_map'))),
   ];
 }
 
