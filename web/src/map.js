@@ -99,17 +99,25 @@ function pick(map, point, by) {
 export function openMap(container, data, covered, tell) {
   const { site } = data;
   maplibre.addProtocol('pmtiles', new Protocol().tile);
+  // Room around what is shown, less where the map is small: more than its size would leave the map where it is.
+  const padding = (most) => {
+    const edge = Math.min(most, container.clientWidth / 8, container.clientHeight / 8);
+    const { right, bottom } = covered();
+    return { top: edge, left: edge, right: edge + right, bottom: edge + bottom };
+  };
   const [zoom, latitude, longitude] = state.map.split('/').map(Number);
   const map = new maplibre.Map({
     container, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
-    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: site.bounds, fitBoundsOptions: { padding: 30 } }),
+    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: site.bounds, fitBoundsOptions: { padding: padding(30) } }),
   });
   map.touchZoomRotate.disableRotation();
   map.addControl(new maplibre.NavigationControl({ showCompass: false }), 'top-right');
   map.addControl(new maplibre.ScaleControl({ unit: state.unit === 'in/mi' ? 'imperial' : 'metric' }), 'bottom-left');
 
+  let pointer = 'mouse'; // Safari's clicks do not tell
+  container.addEventListener('pointerdown', ({ pointerType }) => { pointer = pointerType; }, { capture: true });
   map.on('click', (event) => {
-    const found = pick(map, event.point, event.originalEvent.pointerType === 'touch' ? 'touch' : 'mouse');
+    const found = pick(map, event.point, pointer === 'touch' ? 'touch' : 'mouse');
     tell.picked(found, event.lngLat);
   });
   map.on('mousemove', (event) => {
@@ -159,7 +167,7 @@ export function openMap(container, data, covered, tell) {
     markPointed: mark('pointed'),
     zoomIn: (at) => map.easeTo({ center: at, zoom: segmentsFrom + 1.5, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
     fit: ([west, south, east, north], most = 17) =>
-      map.fitBounds([[west, south], [east, north]], { padding: { top: 60, left: 60, right: 60 + covered().right, bottom: 60 + covered().bottom }, maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
+      map.fitBounds([[west, south], [east, north]], { padding: padding(60), maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
     jump: (text) => {
       const [toZoom, lat, lon] = text.split('/').map(Number);
       if (Number.isFinite(lon)) map.jumpTo({ center: [lon, lat], zoom: toZoom });

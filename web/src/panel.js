@@ -30,6 +30,7 @@ function range(classes, i) {
 export function openPanel(place, data, totals, worst, act) {
   const { site } = data;
   const legend = el('div', {});
+  const peek = el('ul', { class: 'peek keys', 'aria-hidden': 'true' }); // all of the legend that the low sheet of a phone has room for
   const view = el('div', {});
   const exporting = el('div', {});
   const compare = el('p', { class: 'quiet', role: 'status' });
@@ -39,6 +40,11 @@ export function openPanel(place, data, totals, worst, act) {
     const classKm = kilometres(totals, site, ({ inClass }) => inClass, 'c');
     const kindKm = kilometres(totals, site, ({ highway }) => highway, 'h');
     const totalKm = [...kilometres(totals, site, () => 0).values()][0] ?? 0;
+    const key = (mark, label) => el('li', {}, mark, label);
+    const chip = (step, label) => key(el('span', { class: `chip ${step}` }), label);
+    replace(peek, state.mode === 'change' ? ['better', 'worse', 'unsure'].map((step) => chip(step, w(`site.change.${step}`)))
+      : state.mode === 'confidence' ? [chip('high', w('site.narrow.0')), chip('mid', w('site.narrow.1')), chip('low', w('site.confidence.low'))]
+        : site.classes.map(({ name, colour }) => key(swatch(colour), className(name))));
     const focused = document.activeElement?.dataset?.key;
     replace(legend,
       modes(),
@@ -134,7 +140,7 @@ export function openPanel(place, data, totals, worst, act) {
           el('td', {}, iri(road.sum / road.km)), el('td', {}, roadLength(road.km)))))))]);
   }
 
-  replace(place,
+  replace(place, peek,
     section('legend', w('site.legend'), legend),
     section('worst', w('site.worst'), worst.length === 0 ? el('p', {}, w('site.no_worst')) : el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.worst') },
       el('table', { id: 'worst-table' }, el('caption', { class: 'hidden' }, w('site.worst')),

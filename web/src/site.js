@@ -8,6 +8,7 @@ import { choose, link, onState, readState, state } from './state.js';
 import { day, iri, iriUnit, month, roadLength, speak, w } from './words.js';
 
 const narrow = matchMedia('(max-width: 760px)');
+const small = matchMedia('(max-width: 1000px)'); // the drawer takes the place of the panel
 let data, map, panel, parts;
 let openedBy = null; // where the focus returns
 let shownSegment = null;
@@ -43,7 +44,7 @@ function showDrawer(content, label) {
   parts.drawer.hidden = false;
   document.body.classList.add('has-drawer');
   if (label) parts.drawer.querySelector('#drawer-title')?.focus({ preventScroll: true });
-  if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet('half');
+  if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet(innerHeight < 500 ? 'high' : 'half');
 }
 
 function closeDrawer() {
@@ -102,7 +103,7 @@ function openWorst(section) {
 function covered() {
   const height = parts.map.clientHeight;
   if (narrow.matches) return { right: 0, bottom: Math.min(parts.sheet.clientHeight, height * 0.5) };
-  return { right: parts.drawer.hidden ? 0 : Math.min(parts.drawer.clientWidth, parts.map.clientWidth - 200), bottom: 0 };
+  return { right: parts.drawer.hidden || small.matches ? 0 : Math.min(parts.drawer.clientWidth, parts.map.clientWidth - 200), bottom: 0 };
 }
 
 function toData() {
@@ -197,6 +198,7 @@ function pressed(event) {
 }
 
 function openSheetFor(id) {
+  if (small.matches) closeDrawer();
   if (narrow.matches) setSheet('high');
   document.getElementById(id)?.scrollIntoView({ block: 'start' });
 }
@@ -231,6 +233,8 @@ async function draw() {
     el('header', {}, el('h1', {}, site.title), search(), settings(), el('button', { type: 'button', class: 'share', onclick: (event) => copy(link(), event.currentTarget) }, w('site.share'))),
     bar, el('main', {}, mapPlace, notice, sheet), footer(data));
   setSheet('low');
+  // Nothing has the focus where the low sheet hides it.
+  panelPlace.addEventListener('focusin', () => { if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet('half'); });
   onBusy((isBusy) => { bar.hidden = !isBusy; });
   const act = {
     openWorst, openFeature: (feature) => (feature.segment ? openSegment(feature.segment) : showDrawer(runDetail(feature, { zoomIn: () => map.fit(data.site.bounds, 15) }), true)),

@@ -84,6 +84,65 @@ describe('the page', { timeout: 280_000 }, () => {
     await close();
   });
 
+  test('finds a road within 22 pixels of a finger and not beyond', async () => {
+    const { detail } = lonely();
+    const { page, close } = await town.page(`#${at(detail)}`, { hasTouch: true });
+    const box = await page.locator('#map canvas').boundingBox();
+    const [[lon1, lat1], [lon2, lat2]] = [detail.line[0], detail.line.at(-1)];
+    const course = Math.atan2((lon2 - lon1) * Math.cos(lat1 * Math.PI / 180), lat2 - lat1);
+    const edge = 8.2 + 5.5; // right border of the line
+    const tap = (side) => page.touchscreen.tap(box.x + box.width / 2 + side * Math.cos(course), box.y + box.height / 2 + side * Math.sin(course));
+    await tap(edge + 38);
+    await page.waitForTimeout(600);
+    assert.equal(await page.locator('.drawer').isVisible(), false);
+    await tap(edge + 14);
+    await page.waitForSelector('.drawer h2');
+    await close();
+  });
+
+  test('asks which road is meant where both directions are within reach', async () => {
+    const opposite = (segment) => segment.replace(/[+-](?=\d+$)/, (sign) => (sign === '+' ? '-' : '+'));
+    const names = new Set(town.segments.map(({ segment }) => segment));
+    const index = JSON.parse(readFileSync(join(town.folder, 'site/segments/index.json'), 'utf8'));
+    const all = index.flatMap((_, i) => Object.values(JSON.parse(readFileSync(join(town.folder, `site/segments/${i}.json`), 'utf8'))));
+    const both = all.find(({ segment, line, from_m: from, to_m: to }) => names.has(opposite(segment)) && line.length === 2 && to - from > 15);
+    const { page, text, close } = await town.page(`#${at(both)}`);
+    const box = await page.locator('#map canvas').boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    await page.waitForSelector('.drawer .choices');
+    assert.ok(await page.locator('.choices button').count() >= 2);
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'drawer-title');
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.drawer dl');
+    assert.ok([both.segment, opposite(both.segment)].includes(await text('.drawer code')));
+    await close();
+  });
+
+  test('has the legend in sight on a phone, and raises the sheet for the keyboard', async () => {
+    const { page, breaches, close } = await town.page('', { width: 320, height: 640 });
+    const sees = (selector) => page.evaluate((name) => {
+      const [place, sheet] = [name, '.sheet'].map((each) => document.querySelector(each).getBoundingClientRect());
+      return place.height > 0 && place.top >= sheet.top && place.bottom <= sheet.bottom;
+    }, selector);
+    assert.equal(await sees('.peek'), true);
+    assert.deepEqual(await breaches(), []);
+    await page.locator('.handle').focus();
+    await page.keyboard.press('Tab');
+    assert.equal(await page.locator('.sheet').getAttribute('data-height'), 'half');
+    await close();
+  });
+
+  test('leaves the map in sight beside the drawer on a tablet, and the keys lead back to the panel', async () => {
+    const { page, close } = await town.page(`#s=${lonely().found.segment}`, { width: 768 });
+    await page.waitForSelector('.drawer dl');
+    const drawer = await page.locator('.drawer').boundingBox();
+    assert.ok(768 - drawer.x - drawer.width > 400);
+    await page.keyboard.press('w');
+    assert.equal(await page.evaluate(() => document.activeElement.closest('tr')?.id), 'worst-1');
+    await close();
+  });
+
   test('filters kilometres and map by class, road class, passes and confidence', async () => {
     const { page, text, close } = await town.page();
     const sum = (keeps) => town.segments.filter(keeps).reduce((all, { from_m: from, to_m: to }) => all + (to - from) / 1000, 0);
