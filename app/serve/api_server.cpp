@@ -248,7 +248,7 @@ void serve_database(const std::filesystem::path& file,
     std::stop_source interruption; // of reading, once the time to drain is over
     ServedStore store{file, audience, config.workers, interruption.get_token()};
     LiveContent live{file, audience, console};
-    live.refresh(store.version());
+    live.refresh(store.version(), store.shows_published_alone());
     Pages pages{.features = {}, .live = live};
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
@@ -275,7 +275,7 @@ void serve_database(const std::filesystem::path& file,
         try {
             if (store.look()) {
                 console.detail("the database has changed");
-                live.refresh(store.version());
+                live.refresh(store.version(), store.shows_published_alone());
             }
             trouble.clear();
         } catch (const InputError& error) { // replaced or locked: what was read before stays

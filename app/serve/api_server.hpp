@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// Where a server is reached.
+/// Address at which a server is reached.
 struct ServedAddress {
     std::string base; ///< public address, without a slash at its end; "" = as the client names it
     bool has_access_log = false; ///< a line on standard output for each request

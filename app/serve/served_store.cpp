@@ -39,7 +39,6 @@ ServedStore::ServedStore(std::filesystem::path file,
                          std::stop_token stop)
     : file_{std::move(file)}, audience_{audience}, stop_{std::move(stop)}, readers_(readers) {
     readers_.front().reader = open(); // refuses other files at once
-    shows_published_alone_ = readers_.front().reader->shows_published_alone();
     look();
 }
 
@@ -68,8 +67,7 @@ bool ServedStore::look() {
         throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
     } else if (!watch_ || watch_->inode != inode) {
         auto watch = std::make_unique<Watch>(file_);
-        if (watch_) { // replaced, perhaps by a database of a crowd
-            shows_published_alone_ = open().shows_published_alone();
+        if (watch_) { // replaced
             ++epoch_;
         }
         watch_ = std::move(watch);
@@ -78,6 +76,7 @@ bool ServedStore::look() {
     if (watch_->data_version == data_version) {
         return false;
     }
+    shows_published_alone_ = open().shows_published_alone(); // it may have become a crowd's
     auto version = version_now();
     watch_->data_version = data_version; // not before, as the above may throw
     const std::lock_guard lock{mutex_};

@@ -36,6 +36,10 @@ public:
     /// \returns true if the version has changed.
     bool look();
 
+    /// Tells whether only publications may be shown, as of the last look; for the thread that
+    /// looks.
+    bool shows_published_alone() const { return shows_published_alone_; }
+
     const std::filesystem::path& file() const { return file_; }
 
 private:

@@ -27,10 +27,16 @@ LiveContent::LiveContent(std::filesystem::path file, Audience audience, const Co
     : file_{std::move(file)}, audience_{audience}, console_{console},
       thread_{[this](const std::stop_token& stop) { work(stop); }} {}
 
-void LiveContent::refresh(const std::string& version) {
+void LiveContent::refresh(const std::string& version, bool published_alone) {
     {
         const std::lock_guard lock{mutex_};
         wanted_ = version;
+        if (published_alone && !published_alone_) {
+            tiles_.reset();
+            page_.reset();
+            was_dropped_ = true;
+        }
+        published_alone_ = published_alone;
     }
     asked_.notify_all();
 }
@@ -53,6 +59,7 @@ void LiveContent::work(const std::stop_token& stop) {
             return;
         }
         made = wanted_;
+        was_dropped_ = false;
         lock.unlock();
         const auto begin = Clock::now();
         Clock::duration rest{};
@@ -68,7 +75,7 @@ void LiveContent::work(const std::stop_token& stop) {
         constexpr int rests = 9; // times as long as it worked
         lock.lock();
         rest = std::max(rest, rests * (Clock::now() - begin));
-        asked_.wait_for(lock, stop, rest, [] { return false; });
+        asked_.wait_for(lock, stop, rest, [&] { return was_dropped_; });
     }
 }
 
@@ -78,6 +85,9 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
     auto tiles = std::make_shared<const TileSet>(store, version, beside(), progress);
     {
         const std::lock_guard lock{mutex_};
+        if (was_dropped_) { // the store that was read may not be shown any longer
+            return;
+        }
         tiles_ = tiles;
         if (tiles->count() == 0) { // what the page shows was deleted, or is to be published first
             page_.reset();
@@ -100,7 +110,9 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
                 {.title = file_.stem().string(), .left_hand = false, .tiles = {}},
                 Console{Verbosity::quiet, stop});
     const std::lock_guard lock{mutex_};
-    page_ = std::move(folder);
+    if (!was_dropped_) {
+        page_ = std::move(folder);
+    }
 }
 
 } // namespace macadam

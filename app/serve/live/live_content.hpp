@@ -15,7 +15,7 @@
 
 namespace macadam {
 
-/// What is made from a whole version of the database, in the background: its tiles, and the web
+/// Content made in the background from a whole version of the database: its tiles, and the web
 /// page with its data. Until a newer version is made, the one before is shown.
 class LiveContent {
 public:
@@ -26,8 +26,9 @@ public:
     LiveContent& operator=(const LiveContent&) = delete;
 
     /// Asks for the content of a version. While trips arrive all the time, a version is made at
-    /// most for a tenth of the time.
-    void refresh(const std::string& version);
+    /// most for a tenth of the time. What was made of all trips is shown no longer once only
+    /// publications may be.
+    void refresh(const std::string& version, bool published_alone);
 
     /// Latest tiles; null until there are some.
     std::shared_ptr<const TileSet> tiles() const;
@@ -45,6 +46,8 @@ private:
     bool has_page_ = true;     ///< false once it was refused
     mutable std::mutex mutex_; ///< guards the members below
     std::string wanted_;
+    bool published_alone_ = false; ///< of the wanted version
+    bool was_dropped_ = false;     ///< and is to be made again at once
     std::shared_ptr<const TileSet> tiles_;
     std::shared_ptr<const TemporaryFolder> page_;
     std::condition_variable_any asked_;

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// What every page of the API is made from.
+/// Request, database and addresses from which a page of the API is made.
 struct ApiContext {
     const HttpRequest& request;
     const StoreReader& store;

@@ -27,7 +27,7 @@ struct MdfChannel {
     std::uint32_t bit_count = 0;
     std::uint32_t flags = 0;
     std::uint32_t invalid_bit = 0;
-    /// Of raw values: (p1 x^2 + p2 x + p3) / (p4 x^2 + p5 x + p6).
+    /// Formula of raw values: (p1 x^2 + p2 x + p3) / (p4 x^2 + p5 x + p6).
     std::array<double, 6> conversion{0, 1, 0, 0, 0, 1};
 
     static constexpr std::uint8_t fixed_length = 0;

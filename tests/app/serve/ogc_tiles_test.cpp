@@ -2,6 +2,7 @@
 
 #include "app/export/tile_export.hpp"
 #include "storage/files/gzip.hpp"
+#include "storage/store/road_store.hpp"
 #include "support/http/served_store.hpp"
 #include "support/program/shell.hpp"
 
@@ -148,6 +149,22 @@ TEST(OgcTiles, ShowsTheMapWhereTheProgramHasThePage) {
     const auto answer = served.ask("/", "Accept: text/html\r\n");
     EXPECT_EQ(answer.status, 200);
     EXPECT_EQ(answer.headers.at("content-type"), "text/html; charset=utf-8");
+}
+
+TEST(OgcTiles, AreTakenDownOnceOnlyPublicationsMayBeShown) {
+    const ServedWorld served;
+    const auto layers = tile_json_of(served);
+    const auto bounds = layers.at("bounds");
+    RoadStore::open(served.file).maintenance.make_crowd();
+    const auto shows_old = [&] {
+        const auto answer = served.ask("/tiles.json");
+        return answer.status == 200 && nlohmann::json::parse(answer.body).at("bounds") == bounds;
+    };
+    while (shows_old()) { // the test's time limit ends it
+        std::this_thread::sleep_for(std::chrono::milliseconds{100});
+    }
+    EXPECT_NE(tile_json_of(served).at("bounds"), bounds); // the empty map's
+    EXPECT_EQ(served.ask("/roads.pmtiles").status, 404);
 }
 
 } // namespace
