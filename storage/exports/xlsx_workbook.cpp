@@ -217,8 +217,9 @@ struct XlsxWorkbook::State {
 
 XlsxWorkbook::XlsxWorkbook(const std::filesystem::path& file, const Properties& properties)
     : state_{std::make_unique<State>(file)} {
-    lxw_workbook_options options{
-        .constant_memory = LXW_TRUE, .tmpdir = state_->folder.data(), .use_zip64 = LXW_FALSE};
+    lxw_workbook_options options{}; // later versions of the library have more members
+    options.constant_memory = LXW_TRUE;
+    options.tmpdir = state_->folder.data();
     state_->book = workbook_new_opt(state_->target.c_str(), &options);
     if (state_->book == nullptr) {
         throw InputError{fmt::format("{}: cannot be written: no memory", file.string())};

@@ -37,7 +37,7 @@ inside bash -c '/source/run packages test | xargs apt-get -q -y install --no-ins
 # Both are drawn with, whichever of them an earlier run has left.
 inside apt-get -q -y install --no-install-recommends libosmesa6 libegl1 libgl1-mesa-dri
 inside cmake -S /source -B /build -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS_RELEASE="-O3 -g1" -D MACADAM_UNITY=ON
-inside nice cmake --build /build -j "$jobs"
+inside nice cmake --build /build -j "$jobs" -- -k0
 inside ctest --test-dir /build -j "$jobs" --no-tests=error --output-on-failure
 
 macadam() { inside /build/macadam "$@"; }

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Score score_of(const Json& score) {
+Score parsed_score(const Json& score) {
     const double mean = score["mean_truth"];
     return {.bias = score["bias_share"],
             .rmse_100m = score["rmse_100m"].get<double>() / mean,
@@ -39,11 +39,11 @@ Run ran(const std::vector<std::string>& words) {
 Scores score_of(const std::string& store, const std::string& truth) {
     const auto comparison =
         Json::parse(ran({"info", store, "--json", "--truth", truth}).out)["truth"];
-    Scores scores{score_of(comparison["all"]), {}};
+    Scores scores{parsed_score(comparison["all"]), {}};
     for (const auto& band : comparison["by_level"]) {
         const auto to = band["to"].is_null() ? "" : fmt::format("{}", band["to"].get<double>());
         scores.by_level[fmt::format("{}-{}", band["from"].get<double>(), to)] =
-            score_of(band["score"]);
+            parsed_score(band["score"]);
     }
     return scores;
 }
