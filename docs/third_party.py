@@ -40,6 +40,8 @@ PROSE = {
     "libosmesa6": "Expat",
     "libpython3.11-dev": "PSF-2.0",
     "python3.11-dev": "PSF-2.0",
+    "libpython3.13-dev": "PSF-2.0",
+    "python3.13-dev": "PSF-2.0",
 }
 SHIPPED = [
     ("ColorBrewer 2.0, scheme RdYlBu (mapping/style/colour_ramp.cpp)",

@@ -45,7 +45,7 @@ endif()
 
 file(GLOB elf_files "${program}" ${module} "${folder}/moved/lib/macadam/plugins/*")
 foreach(file IN LISTS elf_files)
-    file(STRINGS "${file}" traces REGEX "${build}")
+    file(STRINGS "${file}" traces REGEX "${build}/")
     if(traces)
         message(FATAL_ERROR "${file}: names the build folder: ${traces}")
     endif()
