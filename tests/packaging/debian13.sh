@@ -25,10 +25,12 @@ if [ ! -f "$root/complete" ]; then
     touch "$root/complete"
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
-mkdir -p "$root/source" "$root/build"
+mkdir -p "$root/source" "$root/build" "$root/changes"
 mount -t proc proc "$root/proc"
-mount --bind "$source" "$root/source"
-mount -o remount,bind,ro "$root/source"
+# What is written into the sources (by pip) is dropped with the mount.
+mount -t tmpfs changes "$root/changes"
+mkdir "$root/changes/upper" "$root/changes/work"
+mount -t overlay sources -o "lowerdir=$source,upperdir=$root/changes/upper,workdir=$root/changes/work" "$root/source"
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 
 inside apt-get -q update
