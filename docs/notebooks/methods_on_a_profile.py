@@ -9,7 +9,7 @@
 import pathlib
 import tempfile
 
-import matplotlib.pyplot as plt  # type: ignore[import]
+import matplotlib.pyplot as plt
 import numpy as np
 
 import macadam

@@ -10,8 +10,9 @@ import pathlib
 import subprocess
 import tempfile
 
-import matplotlib.pyplot as plt  # type: ignore[import]
+import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import Normalize
 
 import macadam
 
@@ -59,7 +60,7 @@ print(f"{segments.rows} segments; {roads.info()['km']:.1f} km driven")
 
 # %%
 figure, axes = plt.subplots(figsize=(6, 6), layout="constrained")
-scale = plt.Normalize(0, np.nanpercentile(segments["iri"], 95))
+scale = Normalize(0, float(np.nanpercentile(segments["iri"], 95)))
 colours = plt.get_cmap("RdYlBu_r")(scale(segments["iri"]))
 for geometry, colour in zip(segments["geometry"], colours):
     lon_deg, lat_deg = np.array(geometry["coordinates"]).T
