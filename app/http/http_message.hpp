@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,19 @@
 
 namespace macadam {
 
+/// Receiver of the body of a request, block by block, so that no body is kept in memory. It is
+/// destroyed with the request, also if the client goes away.
+class HttpBody {
+public:
+    HttpBody() = default;
+    HttpBody(const HttpBody&) = delete;
+    HttpBody& operator=(const HttpBody&) = delete;
+    virtual ~HttpBody() = default;
+
+    /// Called by the thread of the network. Exceptions become a response of status 503.
+    virtual void add(std::string_view bytes) = 0;
+};
+
 /// Request, decoded.
 struct HttpRequest {
     std::string method;
@@ -18,6 +32,7 @@ struct HttpRequest {
     std::vector<std::pair<std::string, std::string>> parameters; ///< of the query, in its order
     std::map<std::string, std::string, std::less<>> headers;     ///< by name in lower case
     std::string client; ///< address of the client; behind a proxy, as the proxy states it
+    std::shared_ptr<HttpBody> body{}; ///< received whole; null: there is none
 
     /// Value of a parameter; `std::nullopt` if it is missing. Of several the first.
     std::optional<std::string> parameter(std::string_view name) const;

@@ -43,6 +43,9 @@ struct Exchange {
     HttpResponse response{};
     Clock::time_point begin = Clock::now();
     bool is_read = false; ///< whole
+    std::optional<HttpResponse> refusal{};
+    std::uint64_t body_bytes = 0; ///< that are to be read before an answer
+    std::uint64_t received_bytes = 0;
     bool is_begun = false;
     bool is_counted = false;           ///< among the requests of its client
     std::atomic<bool> is_done = false; ///< by the worker
@@ -137,12 +140,14 @@ struct HttpServer::Impl {
                const char*,
                const char* method,
                const char*,
-               const char*,
+               const char* upload,
                std::size_t* upload_size,
                void** exchange) -> MHD_Result {
                 try { // nothing may be thrown through the library, which is C
+                    const std::string_view block{upload == nullptr ? "" : upload, *upload_size};
+                    *upload_size = 0; // all of it is taken
                     return static_cast<Impl*>(server)->handle(
-                        connection, method, upload_size, static_cast<Exchange*>(*exchange));
+                        connection, method, block, *static_cast<Exchange*>(*exchange));
                 } catch (const std::exception&) {
                     return MHD_NO; // ends the connection
                 }
@@ -203,24 +208,59 @@ struct HttpServer::Impl {
 
     MHD_Result handle(MHD_Connection* connection,
                       const char* method,
-                      const std::size_t* upload_size,
-                      Exchange* exchange) {
-        if (exchange->is_done) {
-            return queue_response(connection, *exchange);
+                      std::string_view block,
+                      Exchange& exchange) {
+        if (exchange.is_done) {
+            return queue_response(connection, exchange);
         }
-        if (exchange->is_begun || *upload_size > 0) {
-            return MHD_NO;
-        }
-        if (!exchange->is_read && !has_body(connection)) {
-            exchange->is_read = true; // a response before the next call would end the connection
+        if (!exchange.is_begun) {
+            if (!exchange.is_read && !has_body(connection)) {
+                exchange.is_read = true; // a response before the next call would end the connection
+                return MHD_YES;
+            }
+            exchange.is_begun = true;
+            ++at_work;
+            exchange.refusal = early_response(connection, method, exchange);
+            if (exchange.body_bytes > 0) {
+                set_body_deadline(connection, exchange);
+                return MHD_YES;
+            }
+        } else if (!block.empty()) {
+            receive(connection, exchange, block);
             return MHD_YES;
         }
-        exchange->is_begun = true;
-        ++at_work;
-        if (auto early = early_response(connection, method, *exchange)) {
-            exchange->response = *std::move(early);
-            return queue_response(connection, *exchange);
+        if (exchange.refusal) {
+            exchange.response = *std::move(exchange.refusal);
+            return queue_response(connection, exchange);
         }
+        return hand_to_worker(connection, exchange);
+    }
+
+    /// Takes a block of a body; that of a refused request is dropped, because a client that still
+    /// sends would not see the answer.
+    void receive(MHD_Connection* connection, Exchange& exchange, std::string_view block) const {
+        exchange.received_bytes += block.size();
+        if (!exchange.refusal && exchange.request.body) {
+            try {
+                exchange.request.body->add(block);
+            } catch (const std::exception& error) { // a full disk
+                exchange.refusal = busy(503, "the body cannot be stored now");
+                if (handlers.failed) {
+                    handlers.failed(exchange.request.path, error.what());
+                }
+            }
+        }
+        set_body_deadline(connection, exchange);
+    }
+
+    void set_body_deadline(MHD_Connection* connection, const Exchange& exchange) const {
+        const auto end = exchange.begin + config.body_time +
+                         std::chrono::seconds{exchange.received_bytes /
+                                              std::max<std::size_t>(config.slowest_bytes, 1)};
+        deadlines.set(socket_of(connection), end - Clock::now());
+    }
+
+    MHD_Result hand_to_worker(MHD_Connection* connection, Exchange& exchange) {
         deadlines.suspend(socket_of(connection));
         bool stops = false;
         {
@@ -228,12 +268,12 @@ struct HttpServer::Impl {
             stops = is_stopping;
             if (!stops) { // later, nobody would resume it
                 MHD_suspend_connection(connection);
-                queue.emplace_back(connection, exchange);
+                queue.emplace_back(connection, &exchange);
             }
         }
         if (stops) {
-            exchange->response = busy(503, "the server stops");
-            return queue_response(connection, *exchange);
+            exchange.response = busy(503, "the server stops");
+            return queue_response(connection, exchange);
         }
         arrived.notify_one();
         return MHD_YES;
@@ -252,6 +292,17 @@ struct HttpServer::Impl {
             if (auto answer = handlers.answer_at_once(exchange.request)) {
                 return answer;
             }
+        }
+        if (handlers.admit) {
+            auto admission = handlers.admit(exchange.request);
+            const bool waits_for_leave = !exchange.request.header("expect").empty();
+            if (!admission.refusal || !waits_for_leave) {
+                exchange.body_bytes = body_bytes_of(exchange.request);
+            }
+            if (admission.refusal) {
+                return std::move(admission.refusal);
+            }
+            exchange.request.body = std::move(admission.body);
         }
         const std::lock_guard lock{mutex};
         if (queue.size() >= config.max_waiting || unread_bytes > max_unread_bytes) {
@@ -378,7 +429,7 @@ struct HttpServer::Impl {
     int quiesced = -1;
     std::uint16_t port = 0;
     MHD_Daemon* daemon = nullptr;
-    ConnectionDeadlines deadlines;
+    mutable ConnectionDeadlines deadlines;
     std::atomic<std::size_t> connections = 0;
     std::atomic<std::size_t> at_work = 0;
     std::atomic<std::uint64_t> unread_bytes = 0;

@@ -30,7 +30,11 @@ struct HttpServerConfig {
     std::size_t max_waiting = 512; ///< requests that wait for a worker
     std::chrono::milliseconds head_time{10'000};
     std::chrono::milliseconds response_time{60'000};    ///< and 1 s more for each slowest_bytes
-    std::size_t slowest_bytes = std::size_t{64} * 1024; ///< a second, of a reader
+    std::chrono::milliseconds body_time{60'000};        ///< in the same way
+    std::size_t slowest_bytes = std::size_t{64} * 1024; ///< a second, of a reader or sender
+
+    /// Limit of a request's body; 0: none has one, and there is no other method than GET and HEAD.
+    std::uint64_t max_body_bytes = 0;
 };
 
 /// Measurement of one answered request.
@@ -42,6 +46,12 @@ struct HttpRecord {
     std::chrono::microseconds duration; ///< from head to queued response
 };
 
+/// What becomes of a request whose head has been read.
+struct HttpAdmission {
+    std::optional<HttpResponse> refusal{}; ///< sent in place of an answer
+    std::shared_ptr<HttpBody> body{};      ///< receives the request's body; null: it is dropped
+};
+
 /// Functions that answer requests. Exceptions become a response of status 500 that tells no more.
 struct HttpHandlers {
     /// Called by a worker of that number, less than HttpServerConfig::workers.
@@ -51,12 +61,15 @@ struct HttpHandlers {
     /// request is for a worker.
     std::function<std::optional<HttpResponse>(const HttpRequest&)> answer_at_once{};
 
+    /// Called by the thread of the network, after `answer_at_once`; missing: all are admitted.
+    std::function<HttpAdmission(const HttpRequest&)> admit{};
+
     std::function<void(const HttpRecord&)> record{}; ///< from one thread
     std::function<void(const std::string& route, const std::string& what)> failed{};
 };
 
-/// HTTP/1.1 server for GET and HEAD on one address. One thread reads and writes all connections
-/// (epoll); workers compute the responses.
+/// HTTP/1.1 server on one address, for GET and HEAD, and for PUT, POST and DELETE if it takes
+/// bodies. One thread reads and writes all connections (epoll); workers compute the responses.
 class HttpServer {
 public:
     /// Starts to listen.

@@ -6,6 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <system_error>
 
 namespace macadam {
 namespace {
@@ -54,17 +58,50 @@ std::size_t count_of(const RequestHead& head, std::string_view name) {
         head.headers, [&](const auto& header) { return lower_case(header.first) == name; }));
 }
 
-std::optional<HttpResponse> refused_body(const HttpRequest& request) {
-    if (request.headers.contains("transfer-encoding")) {
-        return http_problem(413, "requests have no body here");
+bool is_reading(const HttpRequest& request) {
+    return request.method == "GET" || request.method == "HEAD";
+}
+
+std::optional<HttpResponse> refused_method(const HttpRequest& request,
+                                           const HttpServerConfig& config) {
+    constexpr std::array writing{"PUT", "POST", "DELETE"};
+    const bool is_known = is_reading(request) || (config.max_body_bytes > 0 &&
+                                                  std::ranges::count(writing, request.method) > 0);
+    if (is_known) {
+        return std::nullopt;
     }
+    auto refusal = http_problem(405, "expected GET or HEAD");
+    refusal.headers.emplace_back("Allow", "GET, HEAD");
+    return refusal;
+}
+
+std::optional<HttpResponse> refused_body(const HttpRequest& request,
+                                         const HttpServerConfig& config) {
     const auto length = request.header("content-length");
-    return length.empty() || length == "0"
-               ? std::nullopt
-               : std::optional{http_problem(413, "requests have no body here")};
+    const bool is_chunked = request.headers.contains("transfer-encoding");
+    if (is_reading(request)) {
+        return !is_chunked && (length.empty() || length == "0")
+                   ? std::nullopt
+                   : std::optional{http_problem(413, "requests have no body here")};
+    }
+    if (is_chunked || (length.empty() && request.method == "PUT")) {
+        return http_problem(411, "expected a header Content-Length");
+    }
+    if (body_bytes_of(request) > config.max_body_bytes) {
+        return http_problem(413, fmt::format("expected at most {} bytes", config.max_body_bytes));
+    }
+    return std::nullopt;
 }
 
 } // namespace
+
+std::uint64_t body_bytes_of(const HttpRequest& request) {
+    const auto length = request.header("content-length");
+    std::uint64_t bytes = 0;
+    const auto [end, error] = std::from_chars(length.data(), length.data() + length.size(), bytes);
+    const bool is_number = error == std::errc{} && end == length.data() + length.size();
+    return length.empty() ? 0 : is_number ? bytes : std::numeric_limits<std::uint64_t>::max();
+}
 
 std::optional<HttpResponse>
 decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest& request) {
@@ -90,12 +127,10 @@ decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest
     if (!is_known_host(lower_case(request.header("host")), config)) {
         return http_problem(421, "the header Host names another server");
     }
-    if (head.method != "GET" && head.method != "HEAD") {
-        auto refusal = http_problem(405, "expected GET or HEAD");
-        refusal.headers.emplace_back("Allow", "GET, HEAD");
+    if (auto refusal = refused_method(request, config)) {
         return refusal;
     }
-    if (auto refusal = refused_body(request)) {
+    if (auto refusal = refused_body(request, config)) {
         return refusal;
     }
     if (!parse_target(head.target, request)) {

@@ -4,6 +4,7 @@
 #include "app/http/http_server.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -17,9 +18,12 @@ struct RequestHead {
 };
 
 /// Decodes a head, or returns the response that refuses it: targets and heads that are too large,
-/// more than one Host or Content-Length, bodies, unknown hosts (a page of another site must not
-/// read this server by a name of its own), methods other than GET and HEAD.
+/// more than one Host or Content-Length, unknown hosts (a page of another site must not read this
+/// server by a name of its own), methods and bodies that the configuration does not allow.
 std::optional<HttpResponse>
 decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest& request);
+
+/// Returns the stated length of the body; the largest number for what is no length.
+std::uint64_t body_bytes_of(const HttpRequest& request);
 
 } // namespace macadam

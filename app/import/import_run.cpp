@@ -168,7 +168,9 @@ ImportTotals import_paths(RoadStore& store,
          .warn = [&](const std::string& words) { console.say(words); }},
         console.progress("importing", {.name = "trip", .parts = TripProgress::whole_trip}),
         [&](const TripReport& trip) {
-            if (options.tells_known || trip.result != TripReport::Result::known) {
+            if (options.tell) {
+                options.tell(trip);
+            } else if (options.tells_known || trip.result != TripReport::Result::known) {
                 print_report(trip, options.json, console);
             }
         });

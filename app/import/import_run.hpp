@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ImportOptions {
     std::size_t max_members;
     std::filesystem::path named_after{}; ///< identifies the import in the journal; empty: its paths
     bool tells_known = true;             ///< whether trips that were imported before are reported
+    /// Receives the report of each trip, once it is on disk, in place of standard output.
+    std::function<void(const TripReport&)> tell{};
 };
 
 /// Parses --jobs, --json, --trim, --mapping, --max-members and the options of the estimation.

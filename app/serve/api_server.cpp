@@ -8,11 +8,14 @@
 #include "app/serve/ogc/tiles_api.hpp"
 #include "app/serve/served_store.hpp"
 #include "app/serve/server_metrics.hpp"
+#include "app/serve/trips/trips_api.hpp"
+#include "app/uploads/upload_workers.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -33,6 +36,8 @@ using namespace std::chrono_literals;
 /// Time for requests at work when the server is told to stop; a command has 1.5 s to end
 /// (InterruptHandler).
 constexpr auto drain_time = 900ms;
+
+constexpr std::uint64_t max_trip_bytes = 64U << 20U; // four hours of a phone at 60 Hz
 
 // -------------------------------------------------------------------------------------- routes
 
@@ -176,12 +181,21 @@ std::string base_of(const HttpRequest& request, const ServedAddress& address) {
     return address.base.empty() ? fmt::format("http://{}", request.header("host")) : address.base;
 }
 
+bool reads(const HttpRequest& request) {
+    return request.method == "GET" || request.method == "HEAD";
+}
+
+bool is_usual_method(std::string_view method) {
+    constexpr std::array<std::string_view, 5> usual{"GET", "HEAD", "PUT", "POST", "DELETE"};
+    return std::ranges::find(usual, method) != usual.end();
+}
+
 void log_request(const HttpRecord& record) {
     const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
         std::chrono::system_clock::now().time_since_epoch());
     print(fmt::format("{} {} {} {} {} B {:.1f} ms\n",
                       utc_text(now.count()),
-                      record.method == "GET" || record.method == "HEAD" ? record.method : "-",
+                      is_usual_method(record.method) ? record.method : "-",
                       record.route,
                       record.status,
                       record.bytes,
@@ -196,6 +210,9 @@ HttpHandlers common_handlers(ServerMetrics& metrics,
                              const Console& console) {
     HttpHandlers handlers;
     handlers.answer_at_once = [&](const HttpRequest& request) -> std::optional<HttpResponse> {
+        if (!reads(request)) {
+            return std::nullopt;
+        }
         if (request.path == "/health") {
             return HttpResponse{
                 .body = "{\"status\":\"pass\"}\n", .cache_control = "no-store", .route = "/health"};
@@ -229,6 +246,19 @@ HttpHandlers common_handlers(ServerMetrics& metrics,
     return handlers;
 }
 
+/// Admits what has a path of trips by its rules; else only what reads.
+HttpAdmission admitted(TripsApi& trips, const HttpRequest& request) {
+    if (TripsApi::has_path(request.path)) {
+        return trips.admit(request);
+    }
+    if (reads(request)) {
+        return {};
+    }
+    auto refusal = http_problem(405, "expected GET or HEAD");
+    refusal.headers.emplace_back("Allow", "GET, HEAD");
+    return {.refusal = std::move(refusal)};
+}
+
 /// Waits a second, or until a stop is requested.
 void wait_for_stop(const std::stop_token& stop) {
     std::mutex mutex;
@@ -241,19 +271,34 @@ void wait_for_stop(const std::stop_token& stop) {
 
 void serve_database(const std::filesystem::path& file,
                     Audience audience,
-                    const HttpServerConfig& config,
+                    const HttpServerConfig& asked,
                     const ServedAddress& address,
                     const Console& console,
-                    const std::function<void(std::uint16_t port)>& started) {
+                    const std::function<void(std::uint16_t port)>& started,
+                    const TripReception& reception) {
+    auto config = asked;
+    config.max_body_bytes = max_trip_bytes;
     std::stop_source interruption; // of reading, once the time to drain is over
     ServedStore store{file, audience, config.workers, interruption.get_token()};
     LiveContent live{file, audience, console};
-    live.refresh(store.version(), store.shows_published_alone());
     Pages pages{.features = {}, .live = live};
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
+    UploadWorkers workers{{.store = file, .arguments = upload_arguments(reception.import_words)},
+                          reception.workers,
+                          console};
+    TripsApi trips{file, {.base = address.base}, [&] { workers.wake(); }};
+    const auto follow = [&] {
+        live.refresh(store.version(), store.shows_published_alone());
+        trips.set_crowd(store.shows_published_alone());
+    };
+    follow();
     auto handlers = common_handlers(metrics, running, address, console);
+    handlers.admit = [&](const HttpRequest& request) { return admitted(trips, request); };
     handlers.answer = [&](const HttpRequest& request, std::size_t worker) {
+        if (TripsApi::has_path(request.path)) {
+            return trips.answer(request);
+        }
         const auto version = store.version();
         try {
             return answered(pages,
@@ -275,7 +320,7 @@ void serve_database(const std::filesystem::path& file,
         try {
             if (store.look()) {
                 console.detail("the database has changed");
-                live.refresh(store.version(), store.shows_published_alone());
+                follow();
             }
             trouble.clear();
         } catch (const InputError& error) { // replaced or locked: what was read before stays
@@ -284,6 +329,7 @@ void serve_database(const std::filesystem::path& file,
             }
         }
     }
+    workers.request_stop();
     server.drain(drain_time);
     interruption.request_stop();
 }

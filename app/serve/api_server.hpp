@@ -4,10 +4,12 @@
 #include "app/http/http_server.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -17,7 +19,13 @@ struct ServedAddress {
     bool has_access_log = false; ///< a line on standard output for each request
 };
 
-/// Serves a database until a stop is requested: OGC API, tiles, /health and /metrics.
+/// How a server works out the trips that it receives.
+struct TripReception {
+    std::size_t workers = 1;                 ///< threads; 0: `macadam worker` does it
+    std::vector<std::string> import_words{}; ///< upload_arguments()
+};
+
+/// Serves a database until a stop is requested: OGC API, tiles, trips, /health and /metrics.
 /// \param started  called with the port when requests are answered
 /// \throws InputError  if the file is no database or the address is in use.
 void serve_database(const std::filesystem::path& file,
@@ -25,7 +33,8 @@ void serve_database(const std::filesystem::path& file,
                     const HttpServerConfig& config,
                     const ServedAddress& address,
                     const Console& console,
-                    const std::function<void(std::uint16_t port)>& started);
+                    const std::function<void(std::uint16_t port)>& started,
+                    const TripReception& reception = {});
 
 /// Serves the files of a folder in the same way.
 void serve_folder(const std::filesystem::path& folder,

@@ -1,15 +1,18 @@
-#include "app/cli/serve_command.hpp"
+#include "app/cli/server_commands.hpp"
 
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/parallel/jobs_option.hpp"
+#include "app/pipeline/estimation_options.hpp"
+#include "app/pipeline/vehicle_lookup.hpp"
 #include "app/serve/api_server.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <filesystem>
 
 namespace macadam {
@@ -55,6 +58,21 @@ void parse_proxy(const std::string& url, HttpServerConfig& config, ServedAddress
     address.base = url.substr(0, url.find_last_not_of('/') + 1);
 }
 
+TripReception parse_reception(const Arguments& arguments) {
+    constexpr std::int64_t max_workers = 64;
+    const auto workers = arguments.integer("--workers").value_or(1);
+    if (workers < 0 || workers > max_workers) {
+        throw UsageError{fmt::format("--workers is {}, expected 0 to {}", workers, max_workers)};
+    }
+    TripReception reception{.workers = static_cast<std::size_t>(workers)};
+    for (const std::string name : {"--vehicles", "--method"}) {
+        if (const auto value = arguments.value(name)) {
+            reception.import_words.insert(reception.import_words.end(), {name, *value});
+        }
+    }
+    return reception;
+}
+
 void run_serve(const Arguments& arguments, const Console& console) {
     HttpServerConfig config;
     ServedAddress address;
@@ -80,7 +98,8 @@ void run_serve(const Arguments& arguments, const Console& console) {
     }
     const auto file = store_file(arguments);
     tell_publication(StoreReader::open(file), console);
-    serve_database(file, Audience::anyone, config, address, console, started);
+    serve_database(
+        file, Audience::anyone, config, address, console, started, parse_reception(arguments));
 }
 
 constexpr std::array operands{
@@ -98,6 +117,12 @@ constexpr std::array options{
     Option{"--allow-origin",
            "ORIGIN",
            "Let pages of this site, or * for all, read the answers (CORS)."},
+    Option{"--workers",
+           "N",
+           "Number of threads that import received trips; 0: 'macadam worker' does it.",
+           "1"},
+    vehicles_option,
+    rare(method_option),
     Option{"--access-log", "", "Print a line for each request, without addresses and positions."},
     preference(
         {"--jobs", "N", "Number of requests that are worked on at once.", default_jobs_words})};
@@ -107,16 +132,18 @@ constexpr std::array options{
 const Command serve_command{
     .name = "serve",
     .summary = "Serve a database to browsers and GIS programs",
-    .about =
-        "Answers on one address, until stopped: the map as a web page, OGC API - Features and "
-        "Tiles for QGIS, ArcGIS and\n"
-        "scripts, /health, and /metrics for Prometheus. A folder is served as files. Values "
-        "follow the database while\n"
-        "trips are imported; of a crowd database only the latest publication is shown. Without a "
-        "web server in front, only\n"
-        "this machine can ask; docs/reference/serve.md has a configuration for nginx. INT and "
-        "TERM (Ctrl-C) end the command\n"
-        "with exit status 0.",
+    .about = "Answers on one address, until stopped: the map as a web page, OGC API - Features and "
+             "Tiles for QGIS, ArcGIS and\n"
+             "scripts, /health, and /metrics for Prometheus. A folder is served as files. Values "
+             "follow the database while\n"
+             "trips are imported; of a crowd database only the latest publication is shown. "
+             "Holders of a token "
+             "('macadam token')\n"
+             "send trips, which are imported. Without a "
+             "web server in front, only\n"
+             "this machine can ask; docs/reference/serve.md has a configuration for nginx. INT and "
+             "TERM (Ctrl-C) end the command\n"
+             "with exit status 0.",
     .example = "  macadam serve roads.gpkg\n"
                "  curl 'http://127.0.0.1:8080/collections/segments/items?class=poor&limit=10'\n"
                "  macadam serve roads.gpkg --behind-proxy https://roads.example.org",

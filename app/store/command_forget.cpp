@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/uploads/upload_work.hpp"
 
 #include "storage/text/json.hpp"
 
@@ -29,9 +30,11 @@ void run_forget(const Arguments& arguments, const Console& console) {
     if (request.trips.empty() && request.vehicles.empty()) {
         throw UsageError{"expected --trip or --vehicle-id: what to delete"};
     }
+    work_out_all_uploads(file, console);
     auto store = opened_store(file, console);
     const auto progress = console.progress("deleting");
     const auto forgotten = store.maintenance.forget(request, progress);
+    drop_forgotten_uploads(store);
     if (arguments.flag("--json")) {
         print(json_of(forgotten));
     } else {

@@ -3,6 +3,7 @@
 #include "app/serve/ogc/feature.hpp"
 #include "app/serve/ogc/features_api.hpp"
 #include "app/serve/ogc/items_query.hpp"
+#include "app/serve/trips/trips_description.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/text/json.hpp"
 
@@ -168,6 +169,7 @@ std::string paths_text() {
     add("/tileMatrixSets/{tileMatrixSetId}", "matrixSet", "A tile matrix set", json, {matrix_set});
     add("/tiles.json", "tileJson", "TileJSON 3.0", json);
     add("/health", "health", "Whether the server is well", json);
+    add_trip_paths(paths);
     return paths.text();
 }
 
@@ -226,7 +228,7 @@ HttpResponse openapi_page(const ApiContext& context) {
     const auto text = fmt::format(
         R"({{"openapi":"3.0.3","info":{{"title":{},"version":"{}","license":{{"name":{}}}}},)"
         R"("servers":[{{"url":"{}"}}],"paths":{},)"
-        R"("components":{{"responses":{{"Problem":{{"description":"Refused",)"
+        R"("components":{{"securitySchemes":{},"responses":{{"Problem":{{"description":"Refused",)"
         R"("content":{{"application/problem+json":{{"schema":{{"type":"object"}}}}}}}}}}}}}})",
         json_text(context.store.file().stem().string()),
         "1",
@@ -234,7 +236,8 @@ HttpResponse openapi_page(const ApiContext& context) {
                       ? "of the operator"
                       : context.store.settings().attribution),
         context.base,
-        paths_text());
+        paths_text(),
+        trip_security_schemes);
     return api_page(context, "API", text, openapi_type);
 }
 

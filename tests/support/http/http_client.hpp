@@ -15,7 +15,8 @@ struct Answer {
     std::string body;
 };
 
-/// Connection to a server on 127.0.0.1. Reading ends after 30 s.
+/// Connection to a server on 127.0.0.1; without one, answers have status 0. Reading ends after 30
+/// s.
 class HttpClient {
 public:
     explicit HttpClient(std::uint16_t port);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "app/cli/commands.hpp"
+
+namespace macadam {
+
+extern const Command serve_command;  // app/serve/command_serve.cpp
+extern const Command token_command;  // app/uploads/command_token.cpp
+extern const Command worker_command; // app/uploads/command_worker.cpp
+
+} // namespace macadam

@@ -1,0 +1,69 @@
+#include "app/serve/trips/incoming_log.hpp"
+
+#include "estimator/common/ascii.hpp"
+#include "storage/text/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+/// Longer ones first: ".trip.csv.gz" ends with ".csv.gz", too.
+constexpr std::array<std::string_view, 14> suffixes{".trip.csv.zst",
+                                                    ".trip.csv.gz",
+                                                    ".trip.csv",
+                                                    ".csv.zst",
+                                                    ".csv.gz",
+                                                    ".csv",
+                                                    ".txt",
+                                                    ".vbo",
+                                                    ".rawlog",
+                                                    ".zip",
+                                                    ".tar.zst",
+                                                    ".tar.gz",
+                                                    ".tgz",
+                                                    ".tar"};
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> suffixes_by_type{
+    {{"text/csv", ".csv"},
+     {"text/plain", ".csv"},
+     {"application/csv", ".csv"},
+     {"application/gzip", ".csv.gz"},
+     {"application/x-gzip", ".csv.gz"},
+     {"application/zstd", ".csv.zst"},
+     {"application/zip", ".zip"},
+     {"application/x-zip-compressed", ".zip"},
+     {"application/x-tar", ".tar"}}};
+
+constexpr unsigned readable_by_owner = 0600;
+
+} // namespace
+
+std::optional<std::string> suffix_of_upload(const HttpRequest& request) {
+    auto name = in_lower_case(request.header("content-disposition"));
+    name.resize(name.find_last_not_of("\"; ") + 1);
+    for (const auto suffix : suffixes) {
+        if (name.ends_with(suffix)) {
+            return std::string{suffix};
+        }
+    }
+    const auto stated = request.header("content-type");
+    const auto type = in_lower_case(trimmed(stated.substr(0, stated.find(';'))));
+    const auto* const found = std::ranges::find(
+        suffixes_by_type, type, &std::pair<std::string_view, std::string_view>::first);
+    return found == suffixes_by_type.end() ? std::nullopt
+                                           : std::optional{std::string{found->second}};
+}
+
+IncomingLog::IncomingLog(const std::filesystem::path& spool, Upload upload)
+    : upload_{std::move(upload)}, file_{upload_.file_in(spool), readable_by_owner} {}
+
+void IncomingLog::add(std::string_view bytes) {
+    upload_.bytes += static_cast<std::int64_t>(bytes.size());
+    hash_.add(bytes);
+    file_.write(bytes);
+}
+
+} // namespace macadam

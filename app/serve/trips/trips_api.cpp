@@ -1,0 +1,268 @@
+#include "app/serve/trips/trips_api.hpp"
+
+#include "app/serve/trips/incoming_log.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/text/json.hpp"
+#include "storage/text/utc.hpp"
+#include "storage/uploads/upload_database.hpp"
+#include "storage/uploads/upload_queue.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr std::string_view trips_path = "/v1/trips";
+constexpr std::string_view trip_route = "/v1/trips/{sha256}";
+constexpr std::size_t max_listed = 1000;
+
+std::int64_t now_ms() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Returns the hash in "/v1/trips/{sha256}"; "" for another path.
+std::string hash_in(std::string_view path) {
+    constexpr std::size_t digits = 64;
+    if (!path.starts_with(trips_path) || path.size() != trips_path.size() + 1 + digits) {
+        return {};
+    }
+    const auto hash = path.substr(trips_path.size() + 1);
+    const bool is_hash = path[trips_path.size()] == '/' &&
+                         hash.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+    return is_hash ? std::string{hash} : std::string{};
+}
+
+HttpResponse routed(HttpResponse response, std::string_view route) {
+    response.route = route;
+    return response;
+}
+
+HttpResponse later(int status, std::string_view words, std::chrono::seconds after) {
+    auto response = http_problem(status, words);
+    response.headers.emplace_back("Retry-After", std::to_string(after.count()));
+    return response;
+}
+
+HttpResponse not_allowed(std::string_view methods) {
+    auto response = http_problem(405, fmt::format("expected {}", methods));
+    response.headers.emplace_back("Allow", std::string{methods});
+    return response;
+}
+
+HttpResponse no_token() {
+    auto response = http_problem(401, "expected a token: Authorization: Bearer mac_...");
+    response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"Macadam\"");
+    return response;
+}
+
+/// Methods of a path, "" if there is no such path.
+std::string_view methods_of(std::string_view path) {
+    return path == trips_path       ? "GET, HEAD"
+           : !hash_in(path).empty() ? "GET, HEAD, PUT, DELETE"
+                                    : "";
+}
+
+bool is_among(std::string_view method, std::string_view methods) {
+    const auto at = methods.find(method);
+    return at != std::string_view::npos &&
+           (at + method.size() == methods.size() || methods[at + method.size()] == ',') &&
+           (at == 0 || methods[at - 1] == ' ');
+}
+
+std::string json_of(const Upload& upload) {
+    JsonObject object;
+    object.add("sha256", upload.sha256)
+        .add("state", std::string{upload.deleting ? "deleting" : name_of(upload.state)})
+        .add("received", utc_text(upload.received_ms))
+        .add("bytes", upload.bytes)
+        .add("trips", static_cast<std::int64_t>(upload.trips))
+        .add("passes", upload.passes);
+    if (!upload.reason.empty()) {
+        object.add("reason", upload.reason);
+    }
+    return object.text();
+}
+
+HttpResponse json_response(int status, const std::string& text) {
+    return {.status = status, .body = text + "\n", .cache_control = "no-store"};
+}
+
+} // namespace
+
+TripsApi::TripsApi(std::filesystem::path store, TripsApiConfig config, std::function<void()> queued)
+    : store_{std::move(store)}, config_{std::move(config)}, queued_{std::move(queued)},
+      by_token_{config_.per_s, config_.burst}, by_address_{config_.per_address_s,
+                                                           config_.burst_of_address},
+      failures_{config_.failures_s, config_.burst_of_failures} {}
+
+Database* TripsApi::opened(std::optional<Database>& uploads) const {
+    if (!uploads && takes_uploads(store_)) {
+        uploads = open_uploads(store_);
+    }
+    return uploads ? &*uploads : nullptr;
+}
+
+// ---------------------------------------------------------------------- thread of the network
+
+std::optional<HttpResponse> TripsApi::refused_rate(const HttpRequest& request,
+                                                   const std::optional<AccessToken>& token) {
+    auto wait = by_address_.take(request.client);
+    if (!wait) {
+        wait = token ? by_token_.take(token->id) : failures_.take(request.client);
+    }
+    return wait ? std::optional{later(429, "too many requests", *wait)} : std::nullopt;
+}
+
+HttpAdmission TripsApi::admit(const HttpRequest& request) {
+    const auto methods = methods_of(request.path);
+    const auto sha256 = hash_in(request.path);
+    const auto route = sha256.empty() ? trips_path : trip_route;
+    try {
+        auto* const uploads = opened(of_network_);
+        if (uploads == nullptr || methods.empty()) {
+            return {.refusal = http_problem(404,
+                                            uploads == nullptr ? "no trips are taken here"
+                                                               : "there is no such page")};
+        }
+        if (!is_among(request.method, methods)) {
+            return {.refusal = routed(not_allowed(methods), route)};
+        }
+        const auto token =
+            find_token(*uploads, token_in(request.header("authorization")), now_ms());
+        if (auto refusal = refused_rate(request, token)) {
+            return {.refusal = routed(*std::move(refusal), route)};
+        }
+        if (!token) {
+            return {.refusal = routed(no_token(), route)};
+        }
+        if (token->scope == TokenScope::read) {
+            return {.refusal = routed(http_problem(403, "this token is for reading"), route)};
+        }
+        return request.method == "PUT" ? admit_upload(request, sha256, *token) : HttpAdmission{};
+    } catch (const InputError&) { // the folder was moved away
+        of_network_.reset();
+        return {.refusal = routed(
+                    later(503, "uploads cannot be taken now", std::chrono::minutes{1}), route)};
+    }
+}
+
+HttpAdmission TripsApi::admit_upload(const HttpRequest& request,
+                                     const std::string& sha256,
+                                     const AccessToken& token) {
+    const auto refused = [](HttpResponse response) {
+        return HttpAdmission{.refusal = routed(std::move(response), trip_route)};
+    };
+    if (!is_crowd_ && token.scope != TokenScope::operator_) {
+        return refused(http_problem(403, "this database takes trips of its operator alone"));
+    }
+    const auto suffix = suffix_of_upload(request);
+    if (!suffix) {
+        return refused(
+            http_problem(415,
+                         "expected a trip log: text/csv, application/gzip, application/zstd or "
+                         "application/zip, or its name in Content-Disposition"));
+    }
+    if (request.header("content-length") == "0") {
+        return refused(http_problem(422, "the body is empty, expected a trip log"));
+    }
+    std::error_code unknown;
+    const auto space =
+        std::filesystem::space(store_.parent_path().empty() ? "." : store_.parent_path(), unknown);
+    if ((!unknown && space.available < config_.min_free_bytes) ||
+        count_waiting(*of_network_) >= config_.max_waiting) {
+        return refused(
+            later(503, "too many trips wait, or the disk is full", std::chrono::minutes{5}));
+    }
+    return {.body = std::make_shared<IncomingLog>(spool_of(store_),
+                                                  Upload{.sha256 = sha256,
+                                                         .owner = token.owner,
+                                                         .suffix = *suffix,
+                                                         .received_ms = now_ms()})};
+}
+
+// ------------------------------------------------------------------------------------ workers
+
+HttpResponse TripsApi::answer(const HttpRequest& request) {
+    const auto sha256 = hash_in(request.path);
+    const auto route = sha256.empty() ? trips_path : trip_route;
+    const std::scoped_lock lock{mutex_};
+    try {
+        auto* const uploads = opened(uploads_);
+        const auto token =
+            uploads == nullptr
+                ? std::nullopt
+                : find_token(*uploads, token_in(request.header("authorization")), now_ms());
+        if (!token) { // revoked meanwhile
+            return routed(no_token(), route);
+        }
+        return routed(request.method == "PUT" ? take_upload(*uploads, request)
+                      : sha256.empty()        ? list(*uploads, *token)
+                                              : one(*uploads, request, sha256, *token),
+                      route);
+    } catch (const InputError&) {
+        uploads_.reset();
+        throw;
+    }
+}
+
+HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request) {
+    auto* const log = dynamic_cast<IncomingLog*>(request.body.get());
+    if (log == nullptr) {
+        return http_problem(422, "the body is empty, expected a trip log");
+    }
+    const auto& upload = log->upload();
+    if (const auto found = log->sha256(); found != upload.sha256) {
+        return http_problem(
+            422, fmt::format("the body's SHA-256 is {}, expected that of the path", found));
+    }
+    const bool is_new = enqueue(uploads, log->file(), upload);
+    if (is_new) {
+        queued_();
+    }
+    const auto kept = find_upload(uploads, upload.sha256);
+    const bool is_own = kept && kept->owner == upload.owner;
+    auto response =
+        json_response(is_new ? 202 : 200,
+                      is_own ? json_of(*kept)
+                             : fmt::format(R"({{"sha256":"{}","state":"known"}})", upload.sha256));
+    response.headers.emplace_back("Location", config_.base + request.path);
+    return response;
+}
+
+HttpResponse TripsApi::list(Database& uploads, const AccessToken& token) const {
+    const auto owner = token.scope == TokenScope::operator_ ? "" : token.owner;
+    std::vector<std::string> items;
+    for (const auto& upload : latest_uploads(uploads, owner, max_listed)) {
+        items.push_back(json_of(upload));
+    }
+    return json_response(200, fmt::format(R"({{"trips":{}}})", json_array(items)));
+}
+
+HttpResponse TripsApi::one(Database& uploads,
+                           const HttpRequest& request,
+                           const std::string& sha256,
+                           const AccessToken& token) {
+    const auto upload = find_upload(uploads, sha256);
+    const bool is_visible =
+        upload && (token.scope == TokenScope::operator_ || upload->owner == token.owner);
+    if (!is_visible) {
+        return http_problem(404, "there is no such trip of this token's owner");
+    }
+    if (request.method != "DELETE") {
+        return json_response(200, json_of(*upload));
+    }
+    if (delete_upload(uploads, spool_of(store_), sha256)) {
+        return {.status = 204, .cache_control = "no-store"};
+    }
+    queued_();
+    return json_response(202, json_of(*find_upload(uploads, sha256)));
+}
+
+} // namespace macadam

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "app/http/http_server.hpp"
+#include "app/serve/trips/token_buckets.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/uploads/access_token.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// Limits of uploads (docs/reference/serve.md).
+struct TripsApiConfig {
+    std::string base{}; ///< public address, without a slash at its end; "" = none is known
+    std::size_t max_waiting = 10'000;                         ///< uploads in the queue
+    std::uint64_t min_free_bytes = std::uint64_t{512} << 20U; ///< on the disk of the spool
+    double per_s = 2;                                         ///< requests of a token
+    double burst = 240;
+    double per_address_s = 4;
+    double burst_of_address = 480;
+    double failures_s = 0.2; ///< requests of an address with a wrong token
+    double burst_of_failures = 20;
+};
+
+/// Paths below /v1/ of a server: uploads of trips and their fate, for holders of tokens
+/// (docs/reference/serve.md). Where nobody has made a token, there is nothing.
+class TripsApi {
+public:
+    /// \param queued  called when there is something for a worker
+    TripsApi(std::filesystem::path store, TripsApiConfig config, std::function<void()> queued);
+
+    static bool has_path(std::string_view path) { return path.starts_with("/v1/"); }
+
+    /// Admits a request, or refuses it: without a token, with one that does not suffice, too many,
+    /// or with a body that cannot be a trip. For the thread of the network.
+    HttpAdmission admit(const HttpRequest& request);
+
+    /// Answers an admitted request. Thread-safe.
+    HttpResponse answer(const HttpRequest& request);
+
+    /// Tells whether the database is a crowd's; others take trips of operators alone.
+    void set_crowd(bool is_crowd) { is_crowd_ = is_crowd; }
+
+private:
+    /// Connection that is opened when it is first needed, as tokens may be made later.
+    Database* opened(std::optional<Database>& uploads) const;
+
+    std::optional<HttpResponse> refused_rate(const HttpRequest& request,
+                                             const std::optional<AccessToken>& token);
+    HttpAdmission
+    admit_upload(const HttpRequest& request, const std::string& sha256, const AccessToken& token);
+    HttpResponse take_upload(Database& uploads, const HttpRequest& request);
+    HttpResponse list(Database& uploads, const AccessToken& token) const;
+    HttpResponse one(Database& uploads,
+                     const HttpRequest& request,
+                     const std::string& sha256,
+                     const AccessToken& token);
+
+    std::filesystem::path store_;
+    TripsApiConfig config_;
+    std::function<void()> queued_;
+    std::atomic<bool> is_crowd_ = false;
+    std::optional<Database> of_network_; ///< of the thread of the network, which must not wait
+    TokenBuckets by_token_;
+    TokenBuckets by_address_;
+    TokenBuckets failures_;
+    std::mutex mutex_; ///< guards uploads_
+    std::optional<Database> uploads_;
+};
+
+} // namespace macadam

@@ -1,0 +1,183 @@
+#include "app/cli/server_commands.hpp"
+#include "app/database/segment_options.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/store/reader/store_reader.hpp"
+#include "storage/text/json.hpp"
+#include "storage/text/text.hpp"
+#include "storage/text/utc.hpp"
+#include "storage/uploads/access_token.hpp"
+#include "storage/uploads/upload_database.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr std::int64_t ms_per_day = 86'400'000;
+constexpr std::int64_t default_days = 365;
+
+std::int64_t now_ms() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+std::int64_t expiry_in(const Arguments& arguments, std::int64_t now) {
+    constexpr std::int64_t max_days = 3650;
+    const auto days = arguments.integer("--days").value_or(default_days);
+    if (days < 1 || days > max_days) {
+        throw UsageError{fmt::format("--days is {}, expected 1 to {}", days, max_days)};
+    }
+    return now + days * ms_per_day;
+}
+
+/// Returns the operand NAME, a name of its own line in lists.
+const std::string& name_in(const Arguments& arguments) {
+    constexpr std::size_t longest = 100;
+    const auto& names = arguments.operands("NAME");
+    if (names.empty()) {
+        throw UsageError{"NAME is missing, expected whose token it is"};
+    }
+    const auto& name = names.front();
+    const bool is_plain = std::ranges::none_of(
+        name, [](unsigned char letter) { return letter < ' ' || letter == '\x7f'; });
+    if (trimmed(name).empty() || name.size() > longest || !is_plain) {
+        throw UsageError{fmt::format(
+            "NAME is {}, expected 1 to {} bytes on one line", in_quotes(name), longest)};
+    }
+    return name;
+}
+
+Database made_uploads(const std::filesystem::path& store) {
+    make_uploads_folder(store);
+    return open_uploads(store);
+}
+
+void create(const Arguments& arguments,
+            const std::filesystem::path& store,
+            const Console& console) {
+    const auto now = now_ms();
+    const AccessToken token{.id = {},
+                            .owner = name_in(arguments),
+                            .scope = *scope_named(arguments.choice("--scope")),
+                            .created_ms = now,
+                            .expires_ms = expiry_in(arguments, now)};
+    auto uploads = made_uploads(store);
+    print(create_token(uploads, token) + "\n");
+    console.say(fmt::format("valid until {}; it cannot be shown again", utc_day(token.expires_ms)));
+}
+
+void list(const Arguments& arguments, const std::filesystem::path& store) {
+    std::vector<AccessToken> tokens;
+    if (takes_uploads(store)) {
+        auto uploads = open_uploads(store);
+        tokens = all_tokens(uploads);
+    }
+    if (arguments.flag("--json")) {
+        std::vector<std::string> items;
+        for (const auto& token : tokens) {
+            JsonObject item;
+            item.add("id", token.id)
+                .add("name", token.owner)
+                .add("scope", std::string{name_of(token.scope)})
+                .add("created", utc_text(token.created_ms))
+                .add("expires", utc_text(token.expires_ms));
+            items.push_back(item.text());
+        }
+        print(json_array(items) + "\n");
+        return;
+    }
+    std::string lines;
+    for (const auto& token : tokens) {
+        lines += fmt::format("{}  {:<8}  until {}{}  {}\n",
+                             token.id,
+                             name_of(token.scope),
+                             utc_day(token.expires_ms),
+                             token.expires_ms <= now_ms() ? ", expired" : "",
+                             token.owner);
+    }
+    print_words(tokens.empty() ? "no tokens\n" : lines);
+}
+
+void revoke(const Arguments& arguments,
+            const std::filesystem::path& store,
+            const Console& console) {
+    const auto& name = name_in(arguments);
+    std::size_t count = 0;
+    if (takes_uploads(store)) {
+        auto uploads = open_uploads(store);
+        count = revoke_tokens(uploads, name);
+    }
+    if (count == 0) {
+        throw InputError{fmt::format("{}: has no token {}, expected an id or a name of 'macadam "
+                                     "token list'",
+                                     store.string(),
+                                     in_quotes(name))};
+    }
+    console.say(fmt::format("{} revoked; trips stay", count));
+}
+
+void run_token(const Arguments& arguments, const Console& console) {
+    const auto& action = arguments.operand("ACTION");
+    const auto store = store_file(arguments);
+    static_cast<void>(StoreReader::open(store)); // refuses other files
+    if (action == "create") {
+        create(arguments, store, console);
+    } else if (action == "list") {
+        list(arguments, store);
+    } else if (action == "revoke") {
+        revoke(arguments, store, console);
+    } else {
+        throw UsageError{
+            fmt::format("ACTION is {}, expected create, list or revoke", in_quotes(action))};
+    }
+}
+
+constexpr std::array operands{
+    Operand{.name = "ACTION", .help = "create, list or revoke.", .choices = "create|list|revoke"},
+    store_operand,
+    Operand{.name = "NAME",
+            .help = "Whose token it is; tokens of one name share their trips. 'revoke' also takes "
+                    "an id.",
+            .optional = true}};
+
+constexpr std::array options{
+    one_of("upload|read|operator",
+           {"--scope",
+            "SCOPE",
+            "upload: send trips, see and delete the own ones. read: read a server with "
+            "--only-with-token. operator: everything.",
+            "upload"}),
+    Option{"--days", "N", "Days until it expires.", "365"},
+    Option{"--json", "", "With 'list': one JSON array."}};
+
+} // namespace
+
+const Command token_command{
+    .name = "token",
+    .summary = "Make and revoke the tokens by which others send trips to a server",
+    .about = "Prints a new token, lists the tokens, or revokes those of a name; a running server "
+             "follows at once. A token has\n"
+             "256 random bits, and only its SHA-256 is kept, in the folder STORE.uploads/ beside "
+             "the database. Clients send it\n"
+             "as 'Authorization: Bearer TOKEN', or as the password of HTTP Basic with any user "
+             "name.",
+    .example = "  macadam token create roads.gpkg anna\n"
+               "  macadam token create roads.gpkg office --scope operator --days 30\n"
+               "  macadam token list roads.gpkg\n"
+               "  macadam token revoke roads.gpkg anna",
+    .operands = operands,
+    .options = options,
+    .run = run_token};
+
+} // namespace macadam

@@ -1,0 +1,224 @@
+#include "app/uploads/upload_work.hpp"
+
+#include "app/database/lock_wait_messages.hpp"
+#include "app/import/import_run.hpp"
+#include "app/import/trip_options.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/store/road_store.hpp"
+#include "storage/uploads/upload_database.hpp"
+#include "storage/uploads/upload_queue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+using Result = TripReport::Result;
+
+/// Logs that are imported together: fusing takes as long for one as for many.
+constexpr std::size_t batch_size = 20;
+constexpr int max_attempts = 3;
+
+/// What an import said of the trips of one upload.
+struct Reports {
+    std::size_t imported = 0, known = 0, outside = 0, rejected = 0;
+    std::string reason; ///< the first one
+};
+
+/// Replaces the path of a log, which is the server's own matter.
+std::string without_path(std::string text, const fs::path& file, const Upload& upload) {
+    const auto path = file.string();
+    const auto name = "log" + upload.suffix;
+    for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
+        text.replace(at, path.size(), name);
+        at += name.size();
+    }
+    return text;
+}
+
+/// Tests whether a report is of a file, or of a member of an archive.
+bool is_of(const TripReport& report, const std::string& file) {
+    return report.file.starts_with(file) &&
+           (report.file.size() == file.size() || report.file[file.size()] == '/');
+}
+
+void add(Reports& reports, const std::string& reason) {
+    if (reports.reason.empty()) {
+        reports.reason = reason;
+    }
+}
+
+/// Notes what became of one trip of an upload.
+void note(Database& uploads,
+          const std::function<bool(const std::string&)>& is_stored,
+          const TakenUpload& taken,
+          const TripReport& report,
+          const fs::path& file,
+          Reports& reports) {
+    const auto& upload = taken.upload();
+    // A trip that is stored, after an attempt that a kill ended, and of which nobody else says that
+    // it is his, was imported by that attempt.
+    const bool is_our_own =
+        report.result == Result::known && (is_trip_of(uploads, upload, report.sha256) ||
+                                           (upload.attempts > 1 && is_stored(report.sha256) &&
+                                            !is_trip_of_any(uploads, report.sha256)));
+    if (report.result == Result::imported || is_our_own) {
+        ++reports.imported;
+        add_trip_of(uploads, upload, report.sha256, static_cast<std::int64_t>(report.passes));
+    } else if (report.result == Result::known) {
+        ++reports.known;
+        const auto why = std::ranges::find_if(report.warnings, [](const std::string& warning) {
+            return warning.starts_with("was "); // permanently deleted; others are notes on values
+        });
+        add(reports, why == report.warnings.end() ? "already imported" : *why);
+    } else if (report.result == Result::outside) {
+        ++reports.outside;
+        add(reports, "touches no road of this map, not stored");
+    } else {
+        ++reports.rejected;
+        add(reports, without_path(report.error, file, upload));
+    }
+}
+
+UploadState state_of(const Reports& reports) {
+    return reports.imported > 0   ? UploadState::imported
+           : reports.known > 0    ? UploadState::known
+           : reports.rejected > 0 ? UploadState::refused
+           : reports.outside > 0  ? UploadState::outside
+                                  : UploadState::refused;
+}
+
+void finish(Database& uploads, const fs::path& spool, const Upload& upload, Reports reports) {
+    const auto state = state_of(reports);
+    if (state == UploadState::refused) {
+        add(reports, "no trip log was found");
+    }
+    const bool is_partial = reports.imported > 0 && reports.rejected > 0;
+    const auto reason = state == UploadState::imported && !is_partial ? "" : reports.reason;
+    finish_upload(uploads, spool, upload, state, reason);
+}
+
+bool import_batch(Database& uploads, const UploadWork& work, const Console& console) {
+    const auto spool = spool_of(work.store);
+    const auto taken = take_uploads(uploads, spool, batch_size);
+    if (taken.empty()) {
+        return false;
+    }
+    if (const auto& first = taken.front().upload(); first.attempts > max_attempts) { // it is alone
+        finish_upload(uploads,
+                      spool,
+                      first,
+                      UploadState::refused,
+                      fmt::format("the import ended {} times at this log", max_attempts));
+        return true;
+    }
+    std::vector<fs::path> files;
+    std::vector<Reports> reports(taken.size());
+    for (const auto& one : taken) {
+        files.push_back(one.upload().file_in(spool));
+    }
+    try {
+        VehicleChoice vehicles{work.arguments};
+        auto store = opened_store(work.store, console);
+        auto options = parse_import(work.arguments);
+        options.named_after = spool;
+        const auto is_stored = [&](const std::string& trip) { // other threads use `store`
+            return opened_reader(work.store, console, Audience::operator_).contains_trip(trip);
+        };
+        options.tell = [&](const TripReport& report) {
+            for (std::size_t i = 0; i < taken.size(); ++i) {
+                if (is_of(report, files[i].string())) {
+                    note(uploads, is_stored, taken[i], report, files[i], reports[i]);
+                }
+            }
+            if (work.tell) {
+                work.tell(report);
+            }
+        };
+        import_paths(store, files, options, vehicles, console);
+    } catch (...) {
+        for (const auto& one : taken) {
+            put_back(uploads, one.upload());
+        }
+        throw;
+    }
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        finish(uploads, spool, taken[i].upload(), reports[i]);
+    }
+    return true;
+}
+
+/// Forgets the trips of one deleted upload. \returns false if there is none.
+bool forget_one(Database& uploads, const UploadWork& work, const Console& console) {
+    const auto deletion = next_deletion(uploads);
+    if (!deletion) {
+        return false;
+    }
+    auto store = opened_store(work.store, console);
+    ForgetRequest request;
+    std::ranges::copy_if(deletion->trips, std::back_inserter(request.trips), [&](const auto& trip) {
+        return store.contains_trip(trip);
+    });
+    if (!request.trips.empty()) {
+        store.maintenance.forget(request, console.progress("deleting"));
+    }
+    finish_deletion(uploads, deletion->upload);
+    return true;
+}
+
+} // namespace
+
+Arguments upload_arguments(std::vector<std::string> words) {
+    static constexpr auto options = trip_options_and(std::array{trim_option});
+    return {options, {}, std::move(words)};
+}
+
+bool work_out_uploads(Database& uploads, const UploadWork& work, const Console& console) {
+    return forget_one(uploads, work, console) || import_batch(uploads, work, console);
+}
+
+void work_out_all_uploads(const fs::path& store, const Console& console) {
+    if (!takes_uploads(store)) {
+        return;
+    }
+    auto uploads = open_uploads(store, wait_policy_for(store, console));
+    const UploadWork work{.store = store, .arguments = upload_arguments({})};
+    bool has_said = false;
+    while (count_waiting(uploads) > 0) {
+        if (console.stop().stop_requested()) {
+            throw InputError{fmt::format("{}: interrupted while trips were waiting; nothing was "
+                                         "changed",
+                                         store.string())};
+        }
+        if (!std::exchange(has_said, true)) {
+            console.say("importing the trips that a server has received, first");
+        }
+        // Its workers know the vehicle files; ours need not.
+        if (WorkerMark::is_set(spool_of(store)) || !work_out_uploads(uploads, work, console)) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{200});
+        }
+    }
+}
+
+void drop_forgotten_uploads(const StoreReader& store) {
+    if (takes_uploads(store.file())) {
+        auto uploads = open_uploads(store.file());
+        drop_missing_trips(uploads,
+                           [&](const std::string& trip) { return store.contains_trip(trip); });
+    }
+}
+
+} // namespace macadam

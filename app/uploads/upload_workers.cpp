@@ -1,0 +1,76 @@
+#include "app/uploads/upload_workers.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/uploads/upload_database.hpp"
+#include "storage/uploads/upload_queue.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto look_every = 1s;
+constexpr auto after_trouble = 5s;
+
+} // namespace
+
+UploadWorkers::UploadWorkers(const UploadWork& work, std::size_t count, const Console& console) {
+    for (std::size_t i = 0; i < count; ++i) {
+        threads_.emplace_back(
+            [this, work, &console] { this->work(work, console, stop_.get_token()); });
+    }
+}
+
+UploadWorkers::~UploadWorkers() {
+    request_stop();
+}
+
+void UploadWorkers::wake() {
+    const std::lock_guard lock{mutex_};
+    ++woken_;
+    changed_.notify_all();
+}
+
+void UploadWorkers::request_stop() {
+    stop_.request_stop();
+}
+
+void UploadWorkers::work(const UploadWork& work,
+                         const Console& console,
+                         const std::stop_token& stop) {
+    const Console quiet{Verbosity::quiet, stop};
+    std::optional<Database> uploads;
+    std::optional<WorkerMark> mark;
+    std::string trouble;
+    std::size_t seen = 0;
+    while (!stop.stop_requested()) {
+        std::chrono::milliseconds pause = look_every;
+        try {
+            if (!uploads && takes_uploads(work.store)) {
+                uploads = open_uploads(work.store, {.stop = stop});
+                mark.emplace(spool_of(work.store));
+                sweep_spool(*uploads, spool_of(work.store));
+            }
+            if (uploads && work_out_uploads(*uploads, work, quiet)) {
+                pause = 0s;
+            }
+            trouble.clear();
+        } catch (const std::exception& error) {
+            if (!stop.stop_requested() && std::exchange(trouble, error.what()) != error.what()) {
+                console.warn(error.what());
+            }
+            uploads.reset(); // it may have been moved away
+            pause = after_trouble;
+        }
+        std::unique_lock lock{mutex_};
+        changed_.wait_for(lock, stop, pause, [&] { return woken_ != seen; });
+        seen = woken_;
+    }
+}
+
+} // namespace macadam

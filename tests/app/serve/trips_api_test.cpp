@@ -1,0 +1,337 @@
+// Uploads of trips, as a client sees them. No worker runs: what is sent waits.
+
+#include "app/cli/console.hpp"
+#include "app/serve/api_server.hpp"
+#include "storage/files/sha256.hpp"
+#include "storage/uploads/access_token.hpp"
+#include "storage/uploads/upload_database.hpp"
+#include "storage/uploads/upload_queue.hpp"
+#include "support/files/files.hpp"
+#include "support/http/http_client.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <iterator>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::string sha256_of(std::string_view bytes) {
+    Sha256 hash;
+    hash.add(bytes);
+    return hash.hex();
+}
+
+constexpr std::int64_t long_ago_ms = 1'000;
+constexpr std::int64_t far_ahead_ms = 4'000'000'000'000; // in 2096
+
+/// Server that takes trips, with a token of each kind.
+struct TakingWorld {
+    explicit TakingWorld(PrivacyProfile privacy = PrivacyProfile::crowd)
+        : file{new_file(privacy)}, server{[this] {
+              serve_database(file,
+                             Audience::anyone,
+                             {.port = 0},
+                             {},
+                             Console{Verbosity::quiet, stop.get_token()},
+                             [this](std::uint16_t its_port) { started.set_value(its_port); },
+                             {.workers = 0});
+          }} {}
+    ~TakingWorld() { stop.request_stop(); }
+    TakingWorld(const TakingWorld&) = delete;
+    TakingWorld& operator=(const TakingWorld&) = delete;
+
+    static fs::path new_file(PrivacyProfile privacy) {
+        auto path = test_folder() / "roads.gpkg";
+        auto of_crowd = settings();
+        of_crowd.privacy = privacy;
+        RoadStore::create(path, small_country(), of_crowd);
+        make_uploads_folder(path);
+        return path;
+    }
+
+    std::string
+    token(const std::string& owner, TokenScope scope, std::int64_t expires_ms = far_ahead_ms) {
+        return create_token(uploads,
+                            {.id = {}, .owner = owner, .scope = scope, .expires_ms = expires_ms});
+    }
+
+    Answer ask(std::string_view method,
+               std::string_view target,
+               std::string_view token,
+               std::string_view body = {},
+               std::string_view headers = "Content-Type: text/csv\r\n") const {
+        HttpClient client{port};
+        client.send(fmt::format(
+            "{} {} HTTP/1.1\r\nHost: localhost\r\n{}{}{}\r\n{}",
+            method,
+            target,
+            token.empty() ? std::string{} : fmt::format("Authorization: Bearer {}\r\n", token),
+            headers,
+            body.empty() && method != "PUT" ? std::string{}
+                                            : fmt::format("Content-Length: {}\r\n", body.size()),
+            body));
+        return client.answer(method != "HEAD");
+    }
+
+    Answer put(std::string_view body, std::string_view token) const {
+        return ask("PUT", "/v1/trips/" + sha256_of(body), token, body);
+    }
+
+    std::size_t spooled() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator{spool_of(file)}, fs::directory_iterator{}));
+    }
+
+    fs::path file;
+    Database uploads = open_uploads(file);
+    std::string anna = token("anna", TokenScope::upload);
+    std::string ben = token("ben", TokenScope::upload);
+    std::string reader = token("reader", TokenScope::read);
+    std::string operator_ = token("office", TokenScope::operator_);
+    std::stop_source stop;
+    std::promise<std::uint16_t> started;
+    std::jthread server;
+    std::uint16_t port = started.get_future().get();
+};
+
+TEST(TripsApi, TakesATripOnce) {
+    const TakingWorld world;
+    const std::string log = "a log";
+    const auto target = "/v1/trips/" + sha256_of(log);
+    const auto first = world.put(log, world.anna);
+    EXPECT_EQ(first.status, 202) << first.body;
+    EXPECT_EQ(first.headers.at("location"), target);
+    EXPECT_EQ(world.put(log, world.anna).status, 200);
+    EXPECT_EQ(world.spooled(), 1U);
+    const auto fate = nlohmann::json::parse(world.ask("GET", target, world.anna).body);
+    EXPECT_EQ(fate.at("state"), "queued");
+    EXPECT_EQ(fate.at("bytes"), 5);
+}
+
+TEST(TripsApi, TakesALogOf8Megabytes) {
+    const TakingWorld world;
+    const std::string log(8'000'000, 'x');
+    EXPECT_EQ(world.put(log, world.anna).status, 202);
+    EXPECT_EQ(fs::file_size(spool_of(world.file) / (sha256_of(log) + ".csv")), log.size());
+}
+
+TEST(TripsApi, RefusesABodyThatIsNotTheOneOfItsHash) {
+    const TakingWorld world;
+    const auto answer = world.ask("PUT", "/v1/trips/" + sha256_of("another"), world.anna, "a log");
+    EXPECT_EQ(answer.status, 422);
+    EXPECT_THAT(answer.body, HasSubstr(sha256_of("a log")));
+    EXPECT_EQ(world.spooled(), 0U);
+}
+
+TEST(TripsApi, KeepsNothingOfACutUpload) {
+    const TakingWorld world;
+    {
+        HttpClient client{world.port};
+        client.send(fmt::format("PUT /v1/trips/{} HTTP/1.1\r\nHost: localhost\r\n"
+                                "Authorization: Bearer {}\r\nContent-Type: text/csv\r\n"
+                                "Content-Length: 1000000\r\n\r\n{}",
+                                sha256_of("a"),
+                                world.anna,
+                                std::string(100'000, 'a')));
+    }
+    EXPECT_EQ(world.ask("GET", "/v1/trips/" + sha256_of("a"), world.anna).status, 404);
+    EXPECT_EQ(world.spooled(), 0U);
+}
+
+TEST(TripsApi, RefusesWhatCannotBeATrip) {
+    const TakingWorld world;
+    const auto target = "/v1/trips/" + sha256_of("a log");
+    EXPECT_EQ(world.ask("PUT", target, world.anna, "a log", "Content-Type: image/png\r\n").status,
+              415);
+    EXPECT_EQ(world.ask("PUT", target, world.anna, "a log", "").status, 415);
+    EXPECT_EQ(world.ask("PUT", target, world.anna, "").status, 422);
+    HttpClient client{world.port};
+    client.send(fmt::format("PUT {} HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {}\r\n"
+                            "Content-Type: text/csv\r\nContent-Length: 67108865\r\n\r\n",
+                            target,
+                            world.anna));
+    EXPECT_EQ(client.answer().status, 413);
+    EXPECT_EQ(world.spooled(), 0U);
+}
+
+TEST(TripsApi, UsesOfAFileNameItsSuffixAlone) {
+    const TakingWorld world;
+    const std::string log = "a log";
+    const auto answer = world.ask(
+        "PUT",
+        "/v1/trips/" + sha256_of(log),
+        world.anna,
+        log,
+        "Content-Disposition: attachment; filename=\"../../../../tmp/x/../a.trip.csv.gz\"\r\n");
+    EXPECT_EQ(answer.status, 202);
+    EXPECT_TRUE(fs::exists(spool_of(world.file) / (sha256_of(log) + ".trip.csv.gz")));
+}
+
+TEST(TripsApi, KnowsNoOtherPaths) {
+    const TakingWorld world;
+    const auto hash = sha256_of("a log");
+    auto upper = hash;
+    upper[0] = 'A';
+    for (const auto& target : std::vector<std::string>{"/v1/",
+                                                       "/v1/trips/",
+                                                       "/v1/trips/..",
+                                                       "/v1/trips/%2e%2e/%2e%2e/etc/passwd",
+                                                       "/v1/trips/" + hash.substr(1),
+                                                       "/v1/trips/" + hash + "0",
+                                                       "/v1/trips/" + upper,
+                                                       "/v1/trips/" + hash + "/x",
+                                                       "/v1/trips/../trips/" + hash,
+                                                       "/v1/Trips/" + hash,
+                                                       "/v1/trips/" + hash.substr(3) + "%00"}) {
+        const auto status = world.ask("PUT", target, world.anna, "a log").status;
+        EXPECT_TRUE(status == 404 || status == 400) << target << status;
+    }
+    EXPECT_EQ(world.spooled(), 0U);
+}
+
+TEST(TripsApi, ShowsAndDeletesToAContributorHisOwnTripsAlone) {
+    const TakingWorld world;
+    const std::string log = "a log of anna";
+    const auto target = "/v1/trips/" + sha256_of(log);
+    ASSERT_EQ(world.put(log, world.anna).status, 202);
+    EXPECT_EQ(world.put(log, world.ben).status, 200); // he has the log, and learns no more
+    EXPECT_EQ(world.ask("GET", target, world.ben).status, 404);
+    EXPECT_EQ(world.ask("DELETE", target, world.ben).status, 404);
+    const auto count = [&](const std::string& token) {
+        return nlohmann::json::parse(world.ask("GET", "/v1/trips", token).body).at("trips").size();
+    };
+    EXPECT_EQ(count(world.anna), 1U);
+    EXPECT_EQ(count(world.ben), 0U);
+    EXPECT_EQ(count(world.operator_), 1U);
+    EXPECT_EQ(world.ask("DELETE", target, world.anna).status, 204);
+    EXPECT_EQ(world.ask("GET", target, world.anna).status, 404);
+    EXPECT_EQ(world.spooled(), 0U);
+}
+
+TEST(TripsApi, TakesTripsOfItsOperatorAloneUnlessItIsACrowds) {
+    const TakingWorld world{PrivacyProfile::own};
+    const auto answer = world.put("a log", world.anna);
+    EXPECT_EQ(answer.status, 403);
+    EXPECT_THAT(answer.body, HasSubstr("this database takes trips of its operator alone"));
+    EXPECT_EQ(world.put("a log", world.operator_).status, 202);
+}
+
+TEST(TripsApi, FollowsARevokedTokenAtOnce) {
+    TakingWorld world;
+    EXPECT_EQ(world.ask("GET", "/v1/trips", world.anna).status, 200);
+    revoke_tokens(world.uploads, "anna");
+    const auto answer = world.ask("GET", "/v1/trips", world.anna);
+    EXPECT_EQ(answer.status, 401);
+    EXPECT_EQ(answer.headers.at("www-authenticate"), "Bearer realm=\"Macadam\"");
+}
+
+TEST(TripsApi, LetsNobodyGuessTokens) {
+    const TakingWorld world;
+    int refused = 0;
+    for (int i = 0; i < 25; ++i) {
+        const auto answer = world.ask("GET", "/v1/trips", fmt::format("mac_{:08x}_", i));
+        refused += answer.status == 429 ? 1 : 0;
+        EXPECT_TRUE(answer.status == 401 || answer.headers.contains("retry-after"));
+    }
+    EXPECT_GE(refused, 4);
+    EXPECT_EQ(world.ask("GET", "/v1/trips", world.anna).status, 200);
+}
+
+TEST(TripsApi, IsNotThereUntilSomebodyMadeAToken) {
+    const auto path = test_folder() / "roads.gpkg";
+    RoadStore::create(path, small_country(), settings());
+    std::stop_source stop;
+    std::promise<std::uint16_t> started;
+    std::jthread server{[&] {
+        serve_database(path,
+                       Audience::anyone,
+                       {.port = 0},
+                       {},
+                       Console{Verbosity::quiet, stop.get_token()},
+                       [&](std::uint16_t port) { started.set_value(port); });
+    }};
+    const auto port = started.get_future().get();
+    EXPECT_EQ(get(port, "/v1/trips").status, 404);
+    make_uploads_folder(path);
+    EXPECT_EQ(get(port, "/v1/trips").status, 401);
+    stop.request_stop();
+}
+
+TEST(TripsApi, AllowsEachRoleWhatTheDefinitionSays) {
+    TakingWorld world;
+    const auto expired = world.token("old", TokenScope::upload, long_ago_ms);
+    const auto unauthorised = [](int status) { return status == 401; };
+    const auto forbidden = [](int status) { return status == 403; };
+    const auto missing = [](int status) { return status == 404; };
+    const auto done = [](int status) { return status >= 200 && status < 300; };
+    const std::string log = "a log of anna";
+    const auto paths = nlohmann::json::parse(get(world.port, "/api").body).at("paths");
+    std::size_t looked_at = 0;
+    for (const auto& [path, operations] : paths.items()) {
+        for (const std::string method : {"get", "put", "post", "delete", "patch", "options"}) {
+            auto target = path;
+            if (const auto at = target.find("{sha256}"); at != std::string::npos) {
+                target.replace(at, 8, sha256_of(log));
+            }
+            if (!path.starts_with("/v1/")) { // for all, to read
+                EXPECT_EQ(operations.contains(method), method == "get") << path;
+                EXPECT_TRUE(method != "get" || !operations.at("get").contains("security"));
+                EXPECT_TRUE(
+                    method == "get" ||
+                    world.ask(method == "put" ? "PUT" : "POST", target, world.operator_, "x")
+                            .status == 405)
+                    << path;
+                continue;
+            }
+            std::string verb = method;
+            std::ranges::transform(
+                verb, verb.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+            if (!operations.contains(method)) {
+                EXPECT_EQ(world.ask(verb, target, world.operator_, "x").status, 405)
+                    << verb << path;
+                continue;
+            }
+            EXPECT_EQ(operations.at(method).at("security").size(), 2U);
+            ++looked_at;
+            const bool is_list = path == "/v1/trips";
+            const bool is_put = method == "put";
+            const std::vector<std::pair<std::string, std::function<bool(int)>>> roles{
+                {"", unauthorised},
+                {"mac_00000000_" + std::string(64, '0'), unauthorised},
+                {expired, unauthorised},
+                {world.reader, forbidden},
+                {world.ben, is_list || is_put ? std::function<bool(int)>{done} : missing},
+                {world.anna, done},
+                {world.operator_, done}};
+            for (const auto& [token, expected] : roles) {
+                ASSERT_TRUE(world.put(log, world.anna).status < 300);
+                const auto status =
+                    world.ask(verb, target, token, is_put ? std::string_view{log} : "").status;
+                EXPECT_TRUE(expected(status)) << verb << path << token << status;
+            }
+        }
+    }
+    EXPECT_EQ(looked_at, 4U);
+}
+
+} // namespace
+} // namespace macadam::testing
