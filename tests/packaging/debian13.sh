@@ -31,6 +31,8 @@ mount -t proc proc "$root/proc"
 mount -t tmpfs changes "$root/changes"
 mkdir "$root/changes/upper" "$root/changes/work"
 mount -t overlay sources -o "lowerdir=$source,upperdir=$root/changes/upper,workdir=$root/changes/work" "$root/source"
+mkdir -p "$root/source/build"
+mount --bind "$root/build" "$root/source/build"
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 
 inside apt-get -q update
@@ -38,11 +40,11 @@ inside apt-get -q update
 inside bash -c '/source/run packages test | xargs apt-get -q -y install --no-install-recommends'
 # Both are drawn with, whichever of them an earlier run has left.
 inside apt-get -q -y install --no-install-recommends libosmesa6 libegl1 libgl1-mesa-dri
-inside cmake -S /source -B /build -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS_RELEASE="-O3 -g1" -D MACADAM_UNITY=ON
-inside nice cmake --build /build -j "$jobs" -- -k0
-inside ctest --test-dir /build -j "$jobs" --no-tests=error --output-on-failure
+inside cmake -S /source --preset release -D MACADAM_UNITY=ON
+inside nice cmake --build /source/build/release -j "$jobs" -- -k0
+inside ctest --test-dir /source/build/release -j "$jobs" --no-tests=error --output-on-failure
 
-macadam() { inside /build/macadam "$@"; }
+macadam() { inside /source/build/macadam "$@"; }
 trip=/source/sample_data/comma2k19/comma2k19_rav4.trip.csv
 rm -rf "$root/tmp/map"
 mkdir "$root/tmp/map"
@@ -51,7 +53,7 @@ macadam init /tmp/map/roads.gpkg --trace "$trip"
 macadam import /tmp/map/roads.gpkg "$trip"
 draw() {
     for output in "$1.png" "$1.pdf" "$1.tif"; do
-        inside env "MACADAM_OPENGL=$2" /build/macadam render /tmp/map/roads.gpkg -o "/tmp/map/$output"
+        inside env "MACADAM_OPENGL=$2" /source/build/macadam render /tmp/map/roads.gpkg -o "/tmp/map/$output"
         [ -s "$root/tmp/map/$output" ] || { echo "debian13.sh: $output is missing or empty" >&2; exit 1; }
     done
 }
