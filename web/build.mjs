@@ -38,7 +38,7 @@ for (const file of ['drive.js', 'drive.css']) {
 for (const file of ['index.html', 'service_worker.js', 'manifest.webmanifest', 'icon.svg', 'icon-180.png', 'icon-512.png']) {
   await copyFile(join(here, 'static/drive', file), join(out, 'drive', file));
 }
-for (const file of ['index.html', 'assets/icon.svg']) {
+for (const file of ['index.html', 'service_worker.js', 'assets/icon.svg']) {
   await copyFile(join(here, 'static', file), join(out, file));
 }
 

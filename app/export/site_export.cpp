@@ -1,5 +1,6 @@
 #include "app/export/site_export.hpp"
 
+#include "app/export/site_overview.hpp"
 #include "app/export/tile_export.hpp"
 #include "app/site/site_json.hpp"
 #include "app/site/site_manifest.hpp"
@@ -291,6 +292,7 @@ void export_site(const StoreReader& store,
                           .segments = records.size(),
                           .months =
                               months_within(site_months(store), filter.period.value_or(Period{})),
+                          .overview = {},
                           .sources = file_sources(plan.tiles)};
     for (const auto& record : records) {
         totals.add(record);
@@ -304,6 +306,10 @@ void export_site(const StoreReader& store,
     files.write("totals.json", totals.json());
     for (const auto& language : languages()) {
         files.write(fmt::format("words/{}.json", language.code), words_json(language));
+    }
+    if (write_overview(
+            store, filter, files.place / overview_file, plan.title, plan.left_hand, console)) {
+        manifest.overview = overview_file;
     }
     files.write("site.json", manifest_json(store, manifest, totals));
     write_vector_tiles(store, filter, files.place / "roads.pmtiles", plan.tiles, console);

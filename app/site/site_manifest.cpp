@@ -106,6 +106,7 @@ manifest_json(const StoreReader& store, const SiteManifest& manifest, const Site
         .add("names", JsonRaw{manifest.sources.names})
         .add("worst", "worst.json")
         .add("totals", "totals.json")
+        .add("overview", manifest.overview.empty() ? JsonValue{nullptr} : manifest.overview)
         .add("months", JsonRaw{json_string_array(manifest.months)})
         .add("compare", JsonRaw{manifest.sources.compare})
         .text();

@@ -25,6 +25,7 @@ struct SiteManifest {
     GeoBox bounds;
     std::size_t segments = 0;        ///< measured
     std::vector<std::string> months; ///< "2026-03", ascending
+    std::string overview;            ///< picture of all roads; "" = none
     SiteSources sources;
 };
 

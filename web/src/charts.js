@@ -1,6 +1,6 @@
 // Pictures of numbers, each with its words beside it: the class scale, the history, the distribution.
 import { el } from './dom.js';
-import { className, day, inUnit, interval, iri, iriUnit, month, number, roadLength, w } from './words.js';
+import { className, day, inUnit, interval, iri, iriUnit, metres, month, number, roadLength, w } from './words.js';
 
 const round = (value) => value.toFixed(1);
 
@@ -77,3 +77,26 @@ export function distribution(bins, binMmPerM, classes) {
 }
 
 export const seen = ({ first_seen: first, last_seen: last }) => (first ? (first === last ? day(first) : w('period', { first: day(first), last: day(last) })) : '–');
+
+// IRI by distance with its 90 % band and classes; `mark` shades what lies outside of a part.
+export function profile(steps, classes) {
+  const [width, height, left, bottom, top] = [340, 150, 34, 22, 8];
+  const total = steps.at(-1).to;
+  const most = Math.max(1, ...steps.map(({ segment }) => segment.iri_high)) * 1.05;
+  const x = (at) => left + at / total * (width - left - 6);
+  const y = (mmPerM) => top + (1 - Math.max(0, mmPerM) / most) * (height - top - bottom);
+  const edge = (key) => steps.map(({ segment, from, to }) => `${round(x(from))} ${round(y(segment[key]))}L${round(x(to))} ${round(y(segment[key]))}`);
+  const outside = [0, 1].map(() => el('rect', { y: top, height: height - top - bottom, class: 'outside' }));
+  const colourOf = (segment) => classes.find(({ name }) => name === segment.class)?.colour ?? classes.at(-1).colour;
+  const node = el('svg', { viewBox: `0 0 ${width} ${height}`, class: 'chart', role: 'img', 'aria-label': w('site.profile') },
+    ...[0, 0.5, 1].map((part) => part * most / 1.05).map((value) => el('g', {}, el('line', { x1: left, x2: width, y1: round(y(value)), y2: round(y(value)), class: 'grid' }),
+      el('text', { x: left - 4, y: round(y(value) + 4), 'text-anchor': 'end', class: 'tick' }, number(inUnit(value), inUnit(1) > 2 ? 0 : 1)))),
+    el('path', { d: `M${edge('iri_high').join('L')}L${steps.map(({ segment, from, to }) => `${round(x(to))} ${round(y(segment.iri_low))}L${round(x(from))} ${round(y(segment.iri_low))}`).reverse().join('L')}Z`, class: 'band' }),
+    el('path', { d: `M${edge('iri').join('L')}`, class: 'line' }),
+    ...steps.map(({ segment, from, to }) => el('rect', { x: round(x(from)), y: height - bottom, width: round(Math.max(0.5, x(to) - x(from))), height: 5, fill: colourOf(segment) })),
+    ...outside,
+    el('text', { x: left, y: height - 3, class: 'tick' }, metres(0)),
+    el('text', { x: width - 2, y: height - 3, 'text-anchor': 'end', class: 'tick' }, total < 2000 ? metres(total) : roadLength(total / 1000)));
+  const place = (rect, from, to) => { rect.setAttribute('x', round(x(from))); rect.setAttribute('width', round(Math.max(0, x(to) - x(from)))); };
+  return { node, mark(from, to) { place(outside[0], 0, from); place(outside[1], Math.min(to, total), total); } };
+}

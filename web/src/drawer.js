@@ -68,6 +68,7 @@ export function segmentDetail(segment, site, act) {
     el('div', { class: 'actions' },
       el('button', { type: 'button', onclick: () => act.step(-1) }, `◂ ${w('site.back_along')}`),
       el('button', { type: 'button', onclick: () => act.step(1) }, `${w('site.on_along')} ▸`),
+      act.route && el('button', { type: 'button', onclick: act.route.add }, w(act.route.isOn ? 'site.route_to' : 'site.route_from')),
       el('button', { type: 'button', onclick: (event) => act.copy(link(), event.currentTarget) }, w('site.copy_link')),
       el('button', { type: 'button', onclick: () => download(`${segment.segment}.csv`, 'text/csv', historyCsv(segment)) }, w('site.csv'))),
   ];

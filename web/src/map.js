@@ -2,25 +2,23 @@
 import * as maplibre from 'maplibre-gl';
 import { Protocol } from 'pmtiles';
 import { confidenceLimits, isWide, mapFilter } from './filter.js';
+import { el } from './dom.js';
 import { choose, state } from './state.js';
-import { compareMonths, changeColour } from './compare.js';
+import { compareMonths, changeColour, monthColour } from './compare.js';
+import { openSwipe } from './swipe.js';
 
 const layer = 'roughness';
 const roadLayers = ['roads', 'roads-wide'];
 const segmentsFrom = 14; // zoom
 const reach = { mouse: 8, touch: 22 }; // pixels from a click
 
-export const hasWebGl = () => {
-  try {
-    return Boolean(document.createElement('canvas').getContext('webgl2'));
-  } catch {
-    return false;
-  }
-};
-
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-function colour(site) {
+const isSwiped = () => state.mode === 'change' && state.swipe === 'on' && state.a !== '' && state.b !== '';
+
+// `month`: which of the two that are swiped.
+function colour(site, month = 'before') {
+  if (isSwiped()) return monthColour(css, site.classes, month);
   if (state.mode === 'change') return changeColour(css);
   if (state.mode === 'confidence') {
     return ['case', ['!', ['has', 'iri_high']], css('--mid-confidence'), isWide(confidenceLimits[1]), css('--low-confidence'),
@@ -61,6 +59,21 @@ function styleOf(site) {
   };
 }
 
+// Applies filter and colours to the layers of a style.
+function paint(map, site, month) {
+  const filter = mapFilter();
+  const wide = isWide(confidenceLimits[1]);
+  map.setFilter('casing', filter);
+  map.setFilter('names', filter);
+  map.setFilter('roads', ['all', filter, ['!', wide]]);
+  map.setFilter('roads-wide', ['all', filter, wide]);
+  for (const id of roadLayers) map.setPaintProperty(id, 'line-color', colour(site, month));
+  for (const [id, property, name] of [['ground', 'background-color', '--ground'], ['casing', 'line-color', '--casing'], ['picked', 'line-color', '--focus'],
+    ['pointed', 'line-color', '--focus'], ['names', 'text-color', '--ink'], ['names', 'text-halo-color', '--ground']]) {
+    map.setPaintProperty(id, property, css(name));
+  }
+}
+
 const lineOf = (coordinates) => ({ type: 'Feature', properties: {}, geometry: { type: 'LineString', coordinates } });
 
 // Distance in pixels from a point to the nearest part of a feature.
@@ -96,6 +109,12 @@ function pick(map, point, by) {
   return [...nearest.values()].sort((a, b) => a.metres - b.metres).map(({ properties }) => properties);
 }
 
+// Bounds that are not flat, as those of a straight road are.
+function roomy([west, south, east, north]) {
+  const [lon, lat, least] = [(west + east) / 2, (south + north) / 2, 0.001]; // degrees
+  return [[Math.min(west, lon - least), Math.min(south, lat - least)], [Math.max(east, lon + least), Math.max(north, lat + least)]];
+}
+
 export function openMap(container, data, covered, tell) {
   const { site } = data;
   maplibre.addProtocol('pmtiles', new Protocol().tile);
@@ -108,7 +127,7 @@ export function openMap(container, data, covered, tell) {
   const [zoom, latitude, longitude] = state.map.split('/').map(Number);
   const map = new maplibre.Map({
     container, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
-    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: site.bounds, fitBoundsOptions: { padding: padding(30) } }),
+    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: roomy(site.bounds), fitBoundsOptions: { padding: padding(30) } }),
   });
   map.touchZoomRotate.disableRotation();
   map.addControl(new maplibre.NavigationControl({ showCompass: false }), 'top-right');
@@ -117,10 +136,10 @@ export function openMap(container, data, covered, tell) {
   let pointer = 'mouse'; // Safari's clicks do not tell
   container.addEventListener('pointerdown', ({ pointerType }) => { pointer = pointerType; }, { capture: true });
   map.on('click', (event) => {
-    const found = pick(map, event.point, pointer === 'touch' ? 'touch' : 'mouse');
-    tell.picked(found, event.lngLat);
+    tell.picked(pick(map, event.point, pointer === 'touch' ? 'touch' : 'mouse'), event.lngLat);
   });
   map.on('mousemove', (event) => {
+    if (map.isMoving()) return;
     map.getCanvas().style.cursor = map.queryRenderedFeatures(event.point, { layers: roadLayers.filter((id) => map.getLayer(id)) }).length > 0 ? 'pointer' : '';
   });
   map.on('moveend', () => {
@@ -138,22 +157,35 @@ export function openMap(container, data, covered, tell) {
   map.on('dataloading', () => { delete container.dataset.ready; });
 
   const compare = () => compareMonths(map, data, tell.compared);
+  let swipe = null;
+  // The later month on a map of its own, which follows this one.
+  function openAfter(place) {
+    const after = new maplibre.Map({ container: place, style: styleOf(site), attributionControl: false, interactive: false, maxPitch: 0, fadeDuration: 0, center: map.getCenter(), zoom: map.getZoom() });
+    const follow = () => after.jumpTo({ center: map.getCenter(), zoom: map.getZoom() });
+    const compareToo = () => compareMonths(after, data, () => {});
+    map.on('move', follow);
+    after.on('load', () => { paint(after, site, 'after'); compareToo(); });
+    after.on('moveend', compareToo);
+    after.on('error', ({ error }) => tell.failed(error));
+    return { paint: () => { if (after.loaded()) paint(after, site, 'after'); }, remove: () => { map.off('move', follow); after.remove(); } };
+  }
+  function showSwipe() {
+    const months = `${state.a} ${state.b}`;
+    if (swipe && (!isSwiped() || swipe.months !== months)) {
+      swipe.close();
+      swipe = null;
+    }
+    if (isSwiped() && !swipe) swipe = { ...openSwipe(container, { before: state.a, after: state.b }, openAfter), months };
+    else swipe?.map.paint();
+  }
   function show() {
     if (!loaded) return;
-    const filter = mapFilter();
-    const wide = isWide(confidenceLimits[1]);
-    map.setFilter('casing', filter);
-    map.setFilter('names', filter);
-    map.setFilter('roads', ['all', filter, ['!', wide]]);
-    map.setFilter('roads-wide', ['all', filter, wide]);
-    for (const id of roadLayers) map.setPaintProperty(id, 'line-color', colour(site));
-    for (const [id, property, name] of [['ground', 'background-color', '--ground'], ['casing', 'line-color', '--casing'], ['picked', 'line-color', '--focus'],
-      ['pointed', 'line-color', '--focus'], ['names', 'text-color', '--ink'], ['names', 'text-halo-color', '--ground']]) {
-      map.setPaintProperty(id, property, css(name));
-    }
+    paint(map, site, 'before');
     delete container.dataset.ready;
+    showSwipe();
     if (state.mode === 'change') compare();
   }
+  const ends = [];
   const mark = (source) => (lines) => {
     const set = () => map.getSource(source).setData({ type: 'FeatureCollection', features: lines.map(lineOf) });
     if (loaded) set(); else map.once('load', set);
@@ -161,24 +193,32 @@ export function openMap(container, data, covered, tell) {
 
   return {
     show,
-    remove: () => map.remove(),
+    remove: () => { swipe?.close(); map.remove(); },
     focus: () => map.getCanvas().focus(),
     markPicked: mark('picked'),
     markPointed: mark('pointed'),
     zoomIn: (at) => map.easeTo({ center: at, zoom: segmentsFrom + 1.5, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
-    fit: ([west, south, east, north], most = 17) =>
-      map.fitBounds([[west, south], [east, north]], { padding: padding(60), maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
-    jump: (text) => {
-      const [toZoom, lat, lon] = text.split('/').map(Number);
-      if (Number.isFinite(lon)) map.jumpTo({ center: [lon, lat], zoom: toZoom });
-    },
+    fit: (bounds, most = 17) =>
+      map.fitBounds(roomy(bounds), { padding: padding(60), maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
     // Whether a place is in view, and not below the drawer.
     sees(at) {
       const { x, y } = map.project(at);
       const { right, bottom } = covered();
       return x > 0 && y > 0 && x < container.clientWidth - right && y < container.clientHeight - bottom;
     },
-    zoom: () => map.getZoom(),
+    // All segments of the tiles in view, also those that a filter hides.
+    segments: () => (loaded && map.getZoom() >= segmentsFrom ? map.querySourceFeatures('roads', { sourceLayer: layer }) : []),
+    // Ends of a route, to be dragged: `points` are places, `moved(i, found)` gets the roads at the new one.
+    markEnds(points, moved) {
+      ends.splice(0).forEach((each) => each.remove());
+      points.forEach((at, i) => {
+        const node = el('div', { class: `end ${i === 0 ? 'first' : i === points.length - 1 ? 'last' : ''}`, 'aria-hidden': 'true' }, String(i + 1));
+        const marker = new maplibre.Marker({ element: node, draggable: true }).setLngLat(at).addTo(map);
+        for (const name of ['aria-label', 'role', 'tabindex']) node.removeAttribute(name); // sliders do the same by keyboard
+        marker.on('dragend', () => moved(i, pick(map, map.project(marker.getLngLat()), 'touch')));
+        ends.push(marker);
+      });
+    },
     hasSegments: () => map.getZoom() >= segmentsFrom,
     // Features in view that pass the filter, each once.
     inView() {

@@ -6,7 +6,8 @@ import { isFiltered, kilometres, noKind, passSteps, shows } from './filter.js';
 import { choose, hidden, state, toggle } from './state.js';
 import { className, interval, iri, iriUnit, kind, month, number, roadLength, roadName, w } from './words.js';
 
-const bytesOfRow = 190; // of CSV
+const bytesOfRow = { csv: 190, geojson: 750 };
+const featureText = ({ line, months, ...properties }) => JSON.stringify({ type: 'Feature', geometry: { type: 'LineString', coordinates: line }, properties });
 const swatch = (colour) => el('svg', { class: 'swatch', viewBox: '0 0 20 12', 'aria-hidden': 'true' }, el('rect', { x: 0.5, y: 0.5, width: 19, height: 11, fill: colour }));
 
 function section(id, title, ...content) {
@@ -35,6 +36,8 @@ export function openPanel(place, data, totals, worst, act) {
   const exporting = el('div', {});
   const compare = el('p', { class: 'quiet', role: 'status' });
   let comparing = null;
+  let isAfar = false; // the map joins segments
+  const routeButton = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => act.toggleRoute() }, w('site.choose_route'));
 
   function drawLegend() {
     const classKm = kilometres(totals, site, ({ inClass }) => inClass, 'c');
@@ -58,6 +61,7 @@ export function openPanel(place, data, totals, worst, act) {
         ...passSteps.map((passes) => option(String(passes), String(passes), String(state.p))))),
       el('label', { class: 'field' }, w('site.min_confidence'), el('select', { onchange: (event) => choose({ q: Number(event.target.value) }) },
         ...[2, 1, 0].map((step) => option(String(step), w(`site.narrow.${step}`), String(state.q))))),
+      state.q < 2 && isAfar && el('p', { class: 'quiet' }, w('site.confidence_afar')),
       el('p', { class: 'total', role: 'status' }, w('site.shown', { km: roadLength(totalKm), total: roadLength(site.km) }),
         isFiltered() && el('button', { type: 'button', onclick: () => choose({ c: '', h: '', p: 1, q: 2 }) }, w('site.reset'))));
     for (const input of legend.querySelectorAll('input, select')) input.dataset.key = `${input.name || input.tagName}${input.closest('label').textContent.replace(/[\d.,]+ (km|mi)$/, '')}`;
@@ -70,30 +74,35 @@ export function openPanel(place, data, totals, worst, act) {
     const pick = (key, label) => el('label', { class: 'field' }, label, el('select', { onchange: (event) => choose({ [key]: event.target.value }) },
       ...site.months.map((each) => option(each, month(each), state[key]))));
     compare.textContent = comparing ? w('site.compared', comparing) : w('site.zoom_to_compare');
-    return el('div', {}, pick('a', w('site.before')), pick('b', w('site.after')), el('ul', { class: 'keys' },
-      ...['better', 'worse', 'unsure', 'unknown'].map((each) => el('li', {}, el('span', { class: `chip ${each}` }), w(`site.change.${each}`)))), compare);
+    const steps = [...(state.swipe === 'on' ? [] : ['better', 'worse']), 'unsure', 'unknown'];
+    return el('div', {}, pick('a', w('site.before')), pick('b', w('site.after')),
+      el('div', { class: 'checks' }, el('label', {}, el('input', { type: 'checkbox', checked: state.swipe === 'on', onchange: (event) => choose({ swipe: event.target.checked ? 'on' : '' }) }), w('site.swipe'))),
+      el('ul', { class: 'keys' }, ...steps.map((each) => el('li', {}, el('span', { class: `chip ${each}` }), w(`site.change.${each === 'unknown' && isAfar ? 'afar' : each}`)))), compare);
   }
 
   function drawExport(totalKm) {
     const rows = Math.round(site.segments_count * totalKm / Math.max(site.km, 1e-9));
-    const size = rows * bytesOfRow;
+    const size = (bytes) => (rows * bytes < 1e6 ? `${number(rows * bytes / 1e3, 0)} kB` : `${number(rows * bytes / 1e6, 1)} MB`);
     const status = el('span', { role: 'status' });
-    replace(exporting, el('p', {}, w('site.export_size', { count: rows, size: size < 1e6 ? `${number(size / 1e3, 0)} kB` : `${number(size / 1e6, 1)} MB` })),
-      site.segments.index && el('button', { type: 'button', onclick: (event) => save(event.currentTarget, status) }, w('site.export_csv')), status);
+    const button = (format, label) => el('button', { type: 'button', onclick: (event) => save(event.currentTarget, status, format) }, label);
+    replace(exporting, el('p', {}, w('site.export_size', { count: rows, size: size(bytesOfRow.csv), more: size(bytesOfRow.geojson) })),
+      site.segments.index && el('p', { class: 'actions' }, button('csv', w('site.export_csv')), button('geojson', w('site.export_geojson'))), status);
   }
 
-  async function save(button, status) {
+  async function save(button, status, format) {
     button.disabled = true;
     try {
       const parts = [];
       let count = 0;
       for await (const segments of data.segments()) {
         const chosen = segments.filter(shows);
-        parts.push(csvRows(chosen, count === 0));
+        if (chosen.length === 0) continue;
+        parts.push(format === 'csv' ? csvRows(chosen, count === 0) : `${count === 0 ? '' : ',\n'}${chosen.map(featureText).join(',\n')}`);
         count += chosen.length;
         status.textContent = ` ${w('site.rows', { count })}`;
       }
-      download('roads.csv', 'text/csv', parts);
+      if (format === 'csv') download('roads.csv', 'text/csv', parts);
+      else download('roads.geojson', 'application/geo+json', ['{"type":"FeatureCollection","features":[\n', ...parts, '\n]}\n']);
     } catch (failure) {
       act.failed(failure);
     } finally {
@@ -110,6 +119,10 @@ export function openPanel(place, data, totals, worst, act) {
   });
 
   function drawView(features, isSegments) {
+    if (features !== null && isAfar === isSegments) {
+      isAfar = !isSegments;
+      drawLegend();
+    }
     if (features === null) {
       replace(view, el('p', { class: 'quiet' }, w('site.no_map')));
       return;
@@ -147,12 +160,14 @@ export function openPanel(place, data, totals, worst, act) {
         el('thead', {}, el('tr', {}, el('th', { scope: 'col' }, '#'), ...['site.road', 'site.iri', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
         el('tbody', {}, ...worstRows)))),
     section('view', w('site.in_view'), view),
+    act.hasMap && section('route', w('site.profile'), el('p', { class: 'quiet' }, w('site.profile_about')), routeButton),
     section('export', w('site.export'), exporting));
   drawLegend();
 
   return {
     draw: drawLegend,
     drawView,
+    routing: (isOn) => routeButton.setAttribute('aria-pressed', String(isOn)),
     compared(counts) {
       comparing = counts;
       compare.textContent = counts ? w('site.compared', counts) : w('site.zoom_to_compare');

@@ -2,14 +2,15 @@
 import { onBusy, openSite, parseId } from './data.js';
 import { choice, neighbour, runDetail, segmentDetail } from './drawer.js';
 import { el, option, replace } from './dom.js';
-import { hasWebGl, openMap } from './map.js';
+import { openMap } from './map.js';
 import { openPanel } from './panel.js';
+import { openRouting } from './routing.js';
 import { choose, link, onState, readState, state } from './state.js';
 import { day, iri, iriUnit, month, roadLength, speak, w } from './words.js';
 
 const narrow = matchMedia('(max-width: 760px)');
 const small = matchMedia('(max-width: 1000px)'); // the drawer takes the place of the panel
-let data, map, panel, parts;
+let data, map, panel, parts, routing;
 let openedBy = null; // where the focus returns
 let shownSegment = null;
 
@@ -20,7 +21,7 @@ function applyTheme() {
 }
 
 function failure(error, retry) {
-  const reason = error.status === 'offline' ? w('site.offline') : w('site.failed', { what: error.url ?? '', why: String(error.status ?? error.message ?? '') });
+  const reason = error.status === 'offline' || !navigator.onLine ? w('site.offline') : w('site.failed', { what: error.url ?? '', why: String(error.status ?? error.message ?? '') });
   replace(parts.notice, el('p', {}, reason), el('button', { type: 'button', onclick: () => { clearNotice(); retry(); } }, w('site.retry')));
   parts.notice.hidden = false;
 }
@@ -49,6 +50,13 @@ function showDrawer(content, label) {
 
 function closeDrawer() {
   if (parts.drawer.hidden) return;
+  if (routing?.isOn()) { // from a segment back to its route, from there to the map
+    const wasSegment = Boolean(shownSegment);
+    shownSegment = null;
+    choose({ s: '' });
+    if (wasSegment) routing.draw(true); else routing.end();
+    return;
+  }
   parts.drawer.hidden = true;
   document.body.classList.remove('has-drawer');
   shownSegment = null;
@@ -66,7 +74,7 @@ async function openSegment(id, { fit = false, focus = true } = {}) {
     shownSegment = segment;
     choose({ s: id });
     map?.markPicked([segment.line]);
-    showDrawer(segmentDetail(segment, data.site, { copy, step: stepAlong }), focus);
+    showDrawer(segmentDetail(segment, data.site, { copy, step: stepAlong, route: routing && { isOn: routing.isOn(), add: () => { shownSegment = null; routing.add(segment); } } }), focus);
     if (fit && map && !(map.sees(segment.line[0]) && map.hasSegments())) {
       const [lon, lat] = segment.line[0];
       map.fit([lon, lat, lon, lat], 16);
@@ -90,6 +98,11 @@ function openFeature(feature, at) {
 }
 
 function picked(found, at) {
+  if (routing.isOn()) {
+    shownSegment = null;
+    routing.picked(found, at);
+    return;
+  }
   if (found.length === 0) return;
   if (found.length === 1) openFeature(found[0], at);
   else showDrawer(choice(found, { open: (each) => openFeature(each, at) }), true);
@@ -181,7 +194,7 @@ function settings() {
 function footer({ site }) {
   const fresh = site.published ? w('site.published', { month: month(site.published.month) }) : site.last_seen ? w('site.fresh', { day: day(site.last_seen) }) : '';
   return el('footer', {}, el('span', {}, fresh), el('span', {}, w('site.indicative')), site.attribution && el('span', {}, site.attribution),
-    el('a', { href: 'assets/licences.txt' }, w('site.licences')));
+    el('a', { href: 'drive/' }, w('site.record')), el('a', { href: 'assets/licences.txt' }, w('site.licences')));
 }
 
 function pressed(event) {
@@ -193,6 +206,7 @@ function pressed(event) {
     ']': () => stepAlong(1),
     w: () => { openSheetFor('worst'); document.querySelector('#worst-table button')?.focus(); },
     c: () => choose({ mode: state.mode === 'change' ? 'roughness' : 'change' }),
+    r: () => routing?.toggle(),
   }[event.key];
   if (go) { event.preventDefault(); go(); }
 }
@@ -206,20 +220,43 @@ function openSheetFor(id) {
 // Without a map: the names of the roads lead to all numbers.
 async function listNames() {
   const names = await data.names('', 200);
-  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.roads') },
+  const { overview } = data.site;
+  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), overview && el('img', { class: 'overview', src: overview, alt: w('site.overview') }), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.roads') },
     el('table', { id: 'road-table' }, el('caption', {}, w('site.roads')),
       el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
       el('tbody', {}, ...names.map((road) => el('tr', {}, el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => openSegment(road.segment) }, road.name)),
         el('td', {}, iri(road.iri)), el('td', {}, roadLength(road.km))))))));
 }
 
+function showView() {
+  if (!panel || !parts.map.dataset.ready) return;
+  panel.drawView(map.inView(), map.hasSegments());
+  routing?.idle();
+}
+
+// The map, or nothing where WebGL 2 is missing.
+function mapOn(place) {
+  try {
+    return openMap(place, data, covered, {
+      picked,
+      failed: (error) => failure(error, () => location.reload()),
+      idle: showView,
+      compared: (counts) => panel?.compared(counts),
+    });
+  } catch (error) {
+    console.info(String(error));
+    return undefined;
+  }
+}
+
 async function draw() {
   const { site } = data;
   const language = site.languages.includes(state.lang) ? state.lang : site.languages.find((code) => navigator.language.startsWith(code)) ?? 'en';
+  const asked = Promise.all([data.totals(), data.worst()]);
+  asked.catch(() => {}); // told below
   await speak(data, language, state.unit);
   if (state.mode === 'change' && !state.a && site.months.length > 1) choose({ a: site.months[0], b: site.months.at(-1) });
   document.title = `${site.title} – ${w('title')}`;
-  const [totals, worst] = await Promise.all([data.totals(), data.worst()]);
   const handle = el('button', { type: 'button', class: 'handle', 'aria-label': w('site.panel'), 'aria-expanded': 'true', onclick: () => setSheet(raise[parts.sheet.dataset.height]) });
   const panelPlace = el('div', { class: 'panel' });
   const drawer = el('aside', { class: 'drawer', hidden: true, 'aria-labelledby': 'drawer-title' });
@@ -236,23 +273,20 @@ async function draw() {
   // Nothing has the focus where the low sheet hides it.
   panelPlace.addEventListener('focusin', () => { if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet('half'); });
   onBusy((isBusy) => { bar.hidden = !isBusy; });
+  panel = undefined;
+  map = mapOn(mapPlace);
   const act = {
-    openWorst, openFeature: (feature) => (feature.segment ? openSegment(feature.segment) : showDrawer(runDetail(feature, { zoomIn: () => map.fit(data.site.bounds, 15) }), true)),
-    toData, failed: (error) => failure(error, clearNotice), pointAt: (section) => map?.markPointed(section ? [section.line] : []),
+    hasMap: Boolean(map), openWorst, openFeature: (feature) => (feature.segment ? openSegment(feature.segment) : showDrawer(runDetail(feature, { zoomIn: () => map.fit(data.site.bounds, 15) }), true)),
+    toData, toggleRoute: () => routing.toggle(), failed: (error) => failure(error, clearNotice), pointAt: (section) => map?.markPointed(section ? [section.line] : []),
   };
-  panel = openPanel(panelPlace, data, totals, worst, act);
-  if (hasWebGl()) {
-    map = openMap(mapPlace, data, covered, {
-      picked,
-      failed: (error) => failure(error, () => location.reload()),
-      idle: () => panel.drawView(map.inView(), map.hasSegments()),
-      compared: (counts) => panel.compared(counts),
-    });
-  } else {
-    map = undefined;
+  panel = openPanel(panelPlace, data, ...await asked, act);
+  routing = map && openRouting(data, map, { show: showDrawer, close: closeDrawer, openSegment: (id) => openSegment(id, { fit: true }), copy, told: panel.routing });
+  if (map) showView();
+  else {
     panel.drawView(null);
     await listNames();
   }
+  await routing?.restore();
   if (state.s) await openSegment(state.s, { fit: !state.map, focus: false });
 }
 
@@ -263,7 +297,7 @@ function changed(keys) {
     draw().catch(broken);
     return;
   }
-  if (keys.some((key) => ['mode', 'c', 'h', 'p', 'q', 'a', 'b', 'theme'].includes(key))) {
+  if (keys.some((key) => ['mode', 'c', 'h', 'p', 'q', 'a', 'b', 'swipe', 'theme'].includes(key))) {
     if (state.mode === 'change' && !state.a && data.site.months.length > 1) {
       choose({ a: data.site.months[0], b: data.site.months.at(-1) });
       return;
@@ -295,8 +329,12 @@ async function start() {
     map?.remove();
     draw().catch(broken);
   });
-  addEventListener('offline', () => failure({ status: 'offline' }, () => {}));
+  const offline = () => failure({ status: 'offline' }, () => {});
+  addEventListener('offline', offline);
   addEventListener('online', clearNotice);
+  if (!navigator.onLine) offline();
+  // After the first picture, which needs the network for itself.
+  if (isSecureContext && navigator.serviceWorker) setTimeout(() => navigator.serviceWorker.register('service_worker.js').catch(() => {}), 3000);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => map?.show());
 }
 

@@ -1,5 +1,5 @@
 // What the reader chose, in the address after '#', so that a link shows the same.
-const defaults = { s: '', mode: 'roughness', c: '', h: '', p: 1, q: 2, lang: '', theme: 'auto', unit: 'mm/m', a: '', b: '', map: '', tab: '' };
+const defaults = { s: '', mode: 'roughness', c: '', h: '', p: 1, q: 2, lang: '', theme: 'auto', unit: 'mm/m', a: '', b: '', swipe: '', r: '', way: '', map: '' };
 
 export const state = { ...defaults };
 const listeners = [];
@@ -11,7 +11,7 @@ export function readState() {
     const text = given.get(key);
     state[key] = text === null ? value : typeof value === 'number' ? (text !== '' && Number.isFinite(Number(text)) ? Number(text) : value) : text;
   }
-  state.s = state.s.replace(' ', '+'); // as '+' in an address is read
+  for (const key of ['s', 'r', 'way']) state[key] = state[key].replaceAll(' ', '+'); // as '+' in an address is read
 }
 
 function address() {

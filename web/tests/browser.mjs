@@ -39,10 +39,12 @@ export async function world() {
     site: JSON.parse(readFileSync(join(folder, 'site/site.json'), 'utf8')),
     segments: query('--bbox', '-180,-90,180,90'),
 
-    // A page that has drawn its map. What it asks of other hosts, logs or throws is a failure when it closes.
-    async page(hash = '', { width = 1280, height = 800, ready = true, path = '', ...context } = {}) {
+    // A page that has drawn its map; without its worker, which answers what a test wants to fail, unless it `keeps` answers.
+    // What it asks of other hosts, logs or throws is a failure when it closes.
+    async page(hash = '', { width = 1280, height = 800, ready = true, path = '', keeps = false, ...context } = {}) {
       const opened = await browser.newContext({ viewport: { width, height }, locale: 'en-GB', ...context });
       const page = await opened.newPage();
+      if (!keeps) await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'serviceWorker', { value: undefined }));
       page.setDefaultTimeout(20_000);
       const wrong = [];
       page.on('request', (request) => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(server.url)) wrong.push(`asked ${request.url()}`); });

@@ -1,8 +1,9 @@
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { after, before, describe, test } from 'node:test';
 import { join } from 'node:path';
+import { addFeatures, newNetwork, routeAlong } from '../src/network.js';
 import { world } from './browser.mjs';
 
 let town;
@@ -24,6 +25,10 @@ function lonely() {
   }
   throw new Error(`no shard has ${found.segment}`);
 }
+const details = () => {
+  const read = (name) => JSON.parse(readFileSync(join(town.folder, `site/segments/${name}.json`), 'utf8'));
+  return read('index').flatMap((_, i) => Object.values(read(i)));
+};
 const at = ({ line }, zoom = 18) => `map=${zoom}/${((line[0][1] + line.at(-1)[1]) / 2).toFixed(6)}/${((line[0][0] + line.at(-1)[0]) / 2).toFixed(6)}`;
 
 describe('a site in a folder', { timeout: 110_000 }, () => {
@@ -45,6 +50,39 @@ describe('a site in a folder', { timeout: 110_000 }, () => {
   test('has own code of at most 80 kB gzipped', () => {
     const sizes = ['site.js', 'site.css'].map((name) => gzipSync(readFileSync(join(town.folder, 'site/assets', name))).length);
     assert.ok(sizes[0] + sizes[1] < 80_000, String(sizes));
+  });
+});
+
+describe('a network of what tiles have shown', () => {
+  const metre = 1 / 111_320; // degrees
+  // Segments of 20 m along the equator, as places in metres.
+  const segment = (id, from, to, line) => ({ properties: { segment: id, from_m: from, to_m: to, iri: 1, iri_low: 1, iri_high: 1 }, geometry: { type: 'LineString', coordinates: line.map(([x, y]) => [x * metre, y * metre]) } });
+  const ids = (route) => route?.map(({ segment: id }) => id) ?? null;
+
+  test('leads the shortest way, against no direction and without turning round', () => {
+    const network = newNetwork();
+    addFeatures(network, [segment('1+0000', 0, 20, [[0, 0], [20, 0]]), segment('1+0001', 20, 40, [[20, 0], [40, 0]]), segment('1-0000', 0, 20, [[20, 0], [0, 0]]),
+      segment('2+0000', 0, 45, [[20, 0], [20, 20], [40, 0]]), segment('3+0000', 0, 20, [[40, 0], [60, 0]])]);
+    assert.deepEqual(ids(routeAlong(network, ['1+0000', '3+0000'])), ['1+0000', '1+0001', '3+0000']);
+    assert.deepEqual(ids(routeAlong(network, ['1+0000', '2+0000', '3+0000'])), ['1+0000', '2+0000', '3+0000']);
+    assert.equal(routeAlong(network, ['3+0000', '1+0000']), null, 'nothing leads back');
+  });
+
+  test('joins the parts of a segment that tiles cut, in whatever order they come, and leaves out what is not whole', () => {
+    const parts = [segment('1+0000', 0, 20, [[0, 0], [12, 0]]), segment('1+0000', 0, 20, [[8, 0], [20, 0]])];
+    for (const order of [parts, [...parts].reverse()]) {
+      const network = newNetwork();
+      addFeatures(network, [...order, segment('1+0001', 20, 40, [[20, 0], [40, 0]]), segment('1+0002', 40, 60, [[40, 0], [48, 0]])]);
+      assert.deepEqual(ids(routeAlong(network, ['1+0000', '1+0001'])), ['1+0000', '1+0001']);
+      assert.equal(network.segments.has('1+0002'), false);
+    }
+  });
+
+  test('takes two ends for one that tiles of other zooms round apart, and not two roads 3 m apart', () => {
+    const network = newNetwork();
+    addFeatures(network, [segment('1+0000', 0, 20, [[0, 0], [20, 0]]), segment('2+0000', 0, 20, [[20.6, 0.4], [40, 0]]), segment('3+0000', 0, 20, [[20, 3], [40, 3]])]);
+    assert.deepEqual(ids(routeAlong(network, ['1+0000', '2+0000'])), ['1+0000', '2+0000']);
+    assert.equal(routeAlong(network, ['1+0000', '3+0000']), null);
   });
 });
 
@@ -235,7 +273,99 @@ describe('the page', { timeout: 280_000 }, () => {
     });
   }
 
-  test('hands on the filtered segments as CSV, and says their number first', async () => {
+  // Some neighbouring measured segments of one way, in driving direction.
+  function stretch(count) {
+    const names = new Map(details().map((each) => [each.segment, each]));
+    for (const first of names.keys()) {
+      const [, way, index] = /^(\d+\+)(\d+)$/.exec(first) ?? [];
+      const run = way && Array.from({ length: count }, (_, i) => names.get(`${way}${String(Number(index) + i).padStart(4, '0')}`));
+      if (run?.every((each) => each && each.to_m - each.from_m > 15)) return run;
+    }
+    throw new Error(`no way has ${count} measured segments on end`);
+  }
+  const meanOf = (run, key) => run.reduce((sum, each) => sum + each[key] * (each.to_m - each.from_m), 0) / run.reduce((sum, each) => sum + each.to_m - each.from_m, 0);
+  const near = (text, value, within) => assert.ok(Math.abs(Number(text) - value) <= within, `${text} and ${value}`);
+
+  test('shows the profile between two roads that are clicked, and of the part between its ends', async () => {
+    const run = stretch(8);
+    const [first, last] = [run[0], run.at(-1)];
+    const { page, text, breaches, close } = await town.page(`#${at(run[4], 17)}`, { width: 1600 }); // so that the drawer hides neither
+    await page.keyboard.press('r');
+    await page.waitForSelector('.drawer #drawer-title');
+    const [zoom, lat, lon] = /map=([^&]+)/.exec(page.url())[1].split('/').map(Number);
+    const box = await page.locator('#map canvas').boundingBox();
+    const scale = 512 * 2 ** zoom / 360;
+    const click = ({ line }) => {
+      const [a, b] = [line[0], line.at(-1)];
+      const [x, y] = [(a[0] + b[0]) / 2 - lon, (a[1] + b[1]) / 2 - lat];
+      const course = Math.atan2((b[0] - a[0]) * Math.cos(lat * Math.PI / 180), b[1] - a[1]);
+      const side = 6.3; // pixels to the right in driving direction at zoom 17
+      return page.mouse.click(box.x + box.width / 2 + x * scale + side * Math.cos(course), box.y + box.height / 2 - y * scale / Math.cos(lat * Math.PI / 180) + side * Math.sin(course));
+    };
+    await click(first);
+    await page.waitForFunction(() => document.querySelectorAll('.points li').length === 1);
+    await click(last);
+    await page.waitForSelector('#profile-part strong');
+    near(await text('#profile-part strong'), meanOf(run, 'iri'), 0.02);
+    assert.equal(await page.locator('#profile-table tbody tr').count(), run.length);
+    assert.equal(await page.locator('.end').count(), 2);
+    assert.deepEqual(await breaches(), []);
+    await page.locator('#profile-from').focus();
+    for (let i = 0; i < 4; ++i) await page.keyboard.press('ArrowRight');
+    await page.waitForFunction((count) => document.querySelectorAll('#profile-table tbody tr').length < count, run.length);
+    assert.equal(await page.locator('#profile-from').getAttribute('aria-valuetext'), '40 m');
+    await page.locator('#profile-part').waitFor();
+    await page.keyboard.press('Escape');
+    assert.equal(await page.locator('.drawer').isVisible(), false);
+    assert.equal(await page.locator('.end').count(), 0);
+    await close();
+  });
+
+  test('shows the same profile from its address wherever the map is, and goes on from it by keyboard', async () => {
+    const run = stretch(8);
+    const [first, last] = [run[0].segment, run.at(-1).segment];
+    const { page, text, close } = await town.page(`#map=9/48/15&r=${first},${last}&way=${first}~${last}`, { width: 390, height: 700 });
+    await page.waitForSelector('#profile-part strong');
+    near(await text('#profile-part strong'), meanOf(run, 'iri'), 0.006);
+    const [file] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Profile as CSV' }).click()]);
+    assert.equal(readFileSync(await file.path(), 'utf8').trim().split('\n').length - 1, run.length);
+    await page.getByText('As a table').click();
+    await page.locator('#profile-table button').nth(3).click();
+    await page.waitForSelector('.drawer code');
+    await page.getByRole('button', { name: 'Profile to here' }).click();
+    await page.waitForFunction(() => document.querySelectorAll('.points li').length === 3);
+    assert.match(await text('.drawer'), /No way over measured roads is known/, 'the road is one way, or was not measured back');
+    await page.getByRole('button', { name: /^Remove point/ }).last().click();
+    await page.waitForSelector('#profile-part strong');
+    await close();
+  });
+
+  test('swipes between two months by keyboard, and breaks no rule there', async () => {
+    const [west, south, east, north] = town.site.bounds;
+    const { page, breaches, close } = await town.page(`#map=15/${(south + north) / 2}/${(west + east) / 2}&mode=change`);
+    await page.getByRole('checkbox', { name: 'Swipe between the months' }).check();
+    await page.waitForFunction(() => document.querySelectorAll('#map canvas').length === 2);
+    const uncovered = () => page.evaluate(() => document.querySelector('.swipe-line').getBoundingClientRect().left);
+    const middle = await uncovered();
+    await page.locator('.swipe').focus();
+    for (let i = 0; i < 10; ++i) await page.keyboard.press('ArrowRight');
+    assert.ok(await uncovered() > middle + 50);
+    assert.match(await page.locator('.swipe').getAttribute('aria-valuetext'), /60 %.* 40 %/);
+    assert.deepEqual(await breaches(), []);
+    await page.getByRole('radio', { name: 'Roughness' }).check();
+    await page.waitForFunction(() => document.querySelectorAll('#map canvas').length === 1);
+    await close();
+  });
+
+  test('says what acts only from closer up', async () => {
+    const { page, text, close } = await town.page('#map=12/48.4/15.6&mode=change&q=1');
+    await page.waitForFunction(() => /from closer up/.test(document.querySelector('#legend').textContent));
+    assert.match(await text('#legend'), /Seen from afar; zoom in to compare/);
+    assert.doesNotMatch(await text('#legend'), /Not measured in both months/);
+    await close();
+  });
+
+  test('hands on the filtered segments as CSV and GeoJSON, and says their number first', async () => {
     const { page, text, close } = await town.page('#c=poor');
     const asked = town.segments.filter(({ class: name }) => name !== 'poor').length;
     const told = Number(/about (\d+) segments/.exec(await text('#export'))[1]);
@@ -244,6 +374,10 @@ describe('the page', { timeout: 280_000 }, () => {
     const lines = readFileSync(await file.path(), 'utf8').trim().split('\n');
     assert.equal(lines.length - 1, asked);
     assert.match(lines[0], /^segment,way_id,name,/);
+    const [second] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download GeoJSON' }).click()]);
+    const { features } = JSON.parse(readFileSync(await second.path(), 'utf8'));
+    assert.deepEqual(features.map(({ properties, geometry }) => [properties.segment, properties.iri, geometry.coordinates]),
+      details().filter(({ class: name }) => name !== 'poor').map(({ segment, iri, line }) => [segment, iri, line]));
     await close();
   });
 
@@ -279,10 +413,12 @@ describe('the page', { timeout: 280_000 }, () => {
     });
   }
 
-  test('shows names with markup as text', async () => {
+  test('shows names with markup as text, and leads to the recorder', async () => {
     const { page, text, close } = await town.page();
     assert.equal(await text('h1'), 'Krems <b>&amp;');
     assert.equal(await page.locator('h1 b').count(), 0);
+    await page.getByRole('link', { name: 'Record a trip' }).click();
+    await page.waitForSelector('#page > *'); // the recorder
     await close();
   });
 
@@ -299,6 +435,7 @@ describe('the page', { timeout: 280_000 }, () => {
     const opened = await town.page('', { ready: false, before: (page) => page.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; }) });
     await opened.page.waitForSelector('#road-table tbody tr');
     assert.match(await opened.text('#map'), /WebGL 2 is missing/);
+    await opened.page.waitForFunction(() => document.querySelector('img.overview')?.naturalWidth === 1200);
     await opened.page.locator('#road-table button').first().click();
     await opened.page.waitForSelector('.drawer dl');
     assert.deepEqual(await opened.breaches(), []);
@@ -324,6 +461,37 @@ describe('the page', { timeout: 280_000 }, () => {
     await page.waitForSelector('.notice[role=alert]:not([hidden])');
     assert.match(await text('.notice'), /No network/);
     await page.context().setOffline(false);
+    await close();
+  });
+
+  test('opens without a network with what was seen, and keeps nothing of an older version', async () => {
+    const { page, drawn, text, wrong, close } = await town.page(`#${at(lonely().detail, 15)}`, { keeps: true });
+    const again = async () => { await page.reload(); await drawn(); };
+    const keptUrls = () => page.evaluate(async () => (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat());
+    await page.waitForFunction(() => navigator.serviceWorker.controller, undefined, { timeout: 15_000 });
+    await again();
+    await page.locator('#worst-1 button').click();
+    await page.waitForSelector('.drawer dl');
+    await page.waitForFunction(async () => (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat().some((url) => /segments\/\d+\.json/.test(url)));
+    await page.context().setOffline(true);
+    await again();
+    await page.waitForSelector('.drawer dl');
+    await page.waitForFunction(() => /No network/.test(document.querySelector('.notice').textContent));
+    await page.waitForSelector('#view-table tbody tr');
+    assert.ok((await keptUrls()).some((url) => /roads\.pmtiles\?part=/.test(url)));
+    wrong.splice(0); // the browser's own words on the failures
+    await page.context().setOffline(false);
+    const file = join(town.folder, 'site/site.json');
+    const before = readFileSync(file, 'utf8');
+    try {
+      writeFileSync(file, before.replace('"digest":"', '"digest":"0'));
+      await page.goto(town.server.url);
+      await drawn();
+      await page.waitForFunction(async () => !(await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat().some((url) => /segments\/\d+\.json/.test(url)));
+    } finally {
+      writeFileSync(file, before);
+    }
+    assert.equal(await text('h1'), 'Krems <b>&amp;');
     await close();
   });
 

@@ -1,6 +1,7 @@
 // A plain static host with range requests, for tests alone.
 import { createServer } from 'node:http';
 import { createReadStream } from 'node:fs';
+import { createGzip } from 'node:zlib';
 import { stat } from 'node:fs/promises';
 import { extname, join, normalize } from 'node:path';
 
@@ -9,9 +10,10 @@ const types = {
   '.svg': 'image/svg+xml', '.pmtiles': 'application/octet-stream',
 };
 
-// Serves a folder on a free port of 127.0.0.1; `asked` collects the paths asked for.
-export async function serve(folder) {
+// Serves a folder on a free port of 127.0.0.1; `asked` collects the paths asked for, `sent` counts the bytes of bodies.
+export async function serve(folder, { gzip = false } = {}) {
   const asked = [];
+  const sent = { bytes: 0 };
   const server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://x').pathname);
     asked.push(path);
@@ -26,10 +28,16 @@ export async function serve(folder) {
     const from = range ? Number(range[1]) : 0;
     const to = range && range[2] ? Math.min(Number(range[2]), info.size - 1) : info.size - 1;
     if (range) head['Content-Range'] = `bytes ${from}-${to}/${info.size}`;
+    const count = (stream) => stream.on('data', (chunk) => { sent.bytes += chunk.length; });
+    if (gzip && !range && request.method === 'GET' && /json|text|svg/.test(`${head['Content-Type']} ${extname(file).replace('.geojson', 'json')}`)) {
+      response.writeHead(200, { ...head, 'Content-Encoding': 'gzip' });
+      count(createReadStream(file).pipe(createGzip({ level: 6 }))).pipe(response);
+      return;
+    }
     response.writeHead(range ? 206 : 200, { ...head, 'Content-Length': to - from + 1 });
     if (request.method === 'HEAD' || to < from) response.end();
-    else createReadStream(file, { start: from, end: to }).pipe(response);
+    else count(createReadStream(file, { start: from, end: to })).pipe(response);
   });
   await new Promise((ready) => { server.listen(0, '127.0.0.1', ready); });
-  return { url: `http://127.0.0.1:${server.address().port}/`, asked, close: () => { server.closeAllConnections(); server.close(); } };
+  return { url: `http://127.0.0.1:${server.address().port}/`, asked, sent, close: () => { server.closeAllConnections(); server.close(); } };
 }

@@ -39,8 +39,10 @@ constexpr std::array messages{
     Message{"site.evidence", "Grundlage"},
     Message{"site.export", "Export"},
     Message{"site.export_csv", "CSV herunterladen"},
-    Message{"site.export_size.one", "Der Filter wählt etwa {count} Abschnitt (CSV, {size})"},
-    Message{"site.export_size.other", "Der Filter wählt etwa {count} Abschnitte (CSV, {size})"},
+    Message{"site.export_size.one",
+            "Der Filter wählt etwa {count} Abschnitt (CSV {size}, GeoJSON {more})"},
+    Message{"site.export_size.other",
+            "Der Filter wählt etwa {count} Abschnitte (CSV {size}, GeoJSON {more})"},
     Message{"site.failed", "{what} konnte nicht geladen werden: {why}"},
     Message{"site.offline", "Kein Netz. Bereits Geladenes bleibt sichtbar."},
     Message{"site.retry", "Erneut versuchen"},
@@ -53,7 +55,8 @@ constexpr std::array messages{
     Message{"site.interval", "90-%-Intervall"},
     Message{"site.iri", "IRI"},
     Message{"site.keys",
-            "/ Suche · [ ] entlang der Straße · w schlechteste Abschnitte · c Vergleich · Esc "
+            "/ Suche · [ ] entlang der Straße · w schlechteste Abschnitte · c Vergleich · r Profil "
+            "· Esc "
             "schließt · Pfeile und + − bewegen die Karte"},
     Message{"site.kinds", "Straßenart"},
     Message{"site.language", "Sprache"},
@@ -115,6 +118,38 @@ constexpr std::array messages{
     Message{"site.which", "Welche Straße?"},
     Message{"site.worst", "Schlechteste Abschnitte"},
     Message{"site.worst_of", "Schlechtester Abschnitt"},
+    Message{"site.record", "Fahrt aufzeichnen"},
+    Message{"site.change.afar", "Aus der Ferne; zum Vergleichen hineinzoomen"},
+    Message{"site.confidence_afar",
+            "In der Karte wirkt dies auf einzelne Abschnitte, aus der Nähe"},
+    Message{"site.profile", "Profil entlang einer Route"},
+    Message{"site.profile_about",
+            "IRI über die Strecke, auf gemessenen Straßen zwischen Punkten der Karte"},
+    Message{"site.choose_route", "Punkte wählen"},
+    Message{"site.distance", "Strecke"},
+    Message{"site.part_from", "Von"},
+    Message{"site.part_to", "Bis"},
+    Message{"site.profile_csv", "Profil als CSV"},
+    Message{"site.remove_point", "Punkt entfernen"},
+    Message{"site.reverse_route", "Umkehren"},
+    Message{"site.end_route", "Profil beenden"},
+    Message{"site.route_from", "Profil ab hier"},
+    Message{"site.route_to", "Profil bis hier"},
+    Message{"site.route_points",
+            "In der Karte zwei oder mehr Straßen anklicken, oder eine Straße öffnen und „Profil "
+            "bis hier“ wählen."},
+    Message{"site.route_zoom", "Einzelne Abschnitte sind aus der Nähe wählbar: erneut klicken."},
+    Message{"site.route_none",
+            "Zwischen diesen Punkten ist kein Weg über gemessene Straßen bekannt. Es zählen nur "
+            "Straßen, die die Karte aus der Nähe gezeigt hat: die Karte an der Route entlang "
+            "bewegen, oder Punkte dazwischen wählen."},
+    Message{"site.route_full",
+            "Die Karte hat zu viele Straßen gezeigt, um einen Weg zu finden. Das Profil beenden "
+            "und nahe am Anfang neu beginnen."},
+    Message{"site.swipe", "Monate übereinander schieben"},
+    Message{"site.swipe_border", "Grenze zwischen {before} und {after}"},
+    Message{"site.overview", "Ebenheit aller Straßen hier, als Bild"},
+    Message{"site.export_geojson", "GeoJSON herunterladen"},
     Message{"site.zoom_to_segments", "Zu einzelnen Abschnitten zoomen"},
 };
 

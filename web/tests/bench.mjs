@@ -1,0 +1,107 @@
+// What the page costs for a large network, beside a plain page with one GeoJSON: node bench.mjs SITE_FOLDER ROADS.geojson
+// Prints rows of a table. Chromium draws by software here; answers are gzipped, as hosts do.
+import { chromium } from 'playwright-core';
+import { copyFileSync, mkdirSync, readFileSync, symlinkSync, rmSync, writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { serve } from './static_server.mjs';
+
+const [site, geojson] = process.argv.slice(2).map((each) => resolve(each));
+const waits = 120_000; // ms
+const slowed = 4; // times
+const args = ['--no-sandbox', '--disable-gpu-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+// The peer: the same library, the same lines and colours, all of it as one file.
+function plainPage(folder) {
+  const { bounds, classes } = JSON.parse(readFileSync(join(site, 'site.json'), 'utf8'));
+  mkdirSync(folder, { recursive: true });
+  for (const name of ['maplibre-gl.mjs', 'maplibre-gl-worker.mjs', 'maplibre-gl.css']) copyFileSync(join(site, 'assets', name), join(folder, name));
+  rmSync(join(folder, 'roads.geojson'), { force: true });
+  symlinkSync(geojson, join(folder, 'roads.geojson'));
+  const colour = ['match', ['get', 'class'], ...classes.flatMap(({ name, colour: value }) => [name, value]), '#999'];
+  writeFileSync(join(folder, 'index.html'), `<!doctype html><link rel="stylesheet" href="maplibre-gl.css"><style>#map{position:absolute;inset:0}</style><div id="map"></div><script type="module">
+import * as maplibre from './maplibre-gl.mjs';
+const map = new maplibre.Map({container: 'map', bounds: ${JSON.stringify(bounds)}, fadeDuration: 0, style: {version: 8, sources: {roads: {type: 'geojson', data: new URL('roads.geojson', location.href).href}},
+  layers: [{id: 'roads', type: 'line', source: 'roads', paint: {'line-color': ${JSON.stringify(colour)}, 'line-width': 2}}]}});
+globalThis.map = map;
+map.on('idle', () => { if (map.isSourceLoaded('roads') && map.queryRenderedFeatures().length > 0) document.getElementById('map').dataset.ready = 'yes'; });
+</script>`);
+  return folder;
+}
+
+async function memory(browser) {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send('SystemInfo.getProcessInfo');
+  const mb = processInfo.filter(({ type }) => type === 'renderer').map(({ id }) => Number(/^Pss:\s+(\d+)/m.exec(readFileSync(`/proc/${id}/smaps_rollup`, 'utf8'))[1]) / 1024);
+  return Math.max(...mb);
+}
+
+async function open(server, hash = '') {
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args, timeout: 60_000 });
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  await page.addInitScript(() => {
+    new MutationObserver(() => { if (globalThis.drawnMs === undefined && document.querySelector('#map[data-ready]')) globalThis.drawnMs = performance.now(); })
+      .observe(document, { subtree: true, childList: true, attributes: true });
+  });
+  const session = await page.context().newCDPSession(page);
+  if (!hash) await session.send('Emulation.setCPUThrottlingRate', { rate: slowed });
+  server.sent.bytes = 0;
+  await page.goto(server.url + hash);
+  await page.waitForFunction(() => globalThis.drawnMs !== undefined, undefined, { timeout: waits });
+  return { browser, page, ms: await page.evaluate(() => globalThis.drawnMs), bytes: server.sent.bytes };
+}
+
+// Frames a second while the map is dragged to and fro.
+async function panning(page) {
+  const box = await page.locator('#map canvas').first().boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.evaluate(() => {
+    globalThis.frames = 0;
+    const count = () => { globalThis.frames += 1; requestAnimationFrame(count); };
+    requestAnimationFrame(count);
+  });
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  const begin = await page.evaluate(() => [performance.now(), globalThis.frames]);
+  for (let i = 1; i <= 120; ++i) {
+    await page.mouse.move(x + 260 * Math.sin(i / 12), y + 160 * Math.sin(i / 19));
+    await page.waitForTimeout(16);
+  }
+  const end = await page.evaluate(() => [performance.now(), globalThis.frames]);
+  await page.mouse.up();
+  return (end[1] - begin[1]) / (end[0] - begin[0]) * 1000;
+}
+
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+
+async function measured(name, folder, hashes, turns) {
+  const server = await serve(folder, { gzip: true });
+  try {
+    const starts = [];
+    for (let i = 0; i < turns; ++i) {
+      const { browser, ms, bytes } = await open(server);
+      starts.push({ ms, mb: bytes / 1e6 });
+      await browser.close();
+    }
+    const frames = [];
+    let most = 0;
+    for (const hash of hashes) {
+      const { browser, page } = await open(server, hash);
+      if (hash === '#plain') await page.evaluate(() => globalThis.map.setZoom(14));
+      await page.waitForTimeout(1000);
+      frames.push(await panning(page));
+      await page.waitForTimeout(2000);
+      most = Math.max(most, await memory(browser));
+      await browser.close();
+    }
+    console.log(`| ${name} | ${(median(starts.map(({ ms }) => ms)) / 1000).toFixed(2)} s | ${median(starts.map(({ mb }) => mb)).toFixed(2)} MB | ${frames.map((each) => each.toFixed(0)).join(', ')} | ${most.toFixed(0)} MB |`);
+  } catch (error) {
+    console.log(`| ${name} | none in ${waits / 1000} s (${String(error.message).split('\n')[0]}) | | | |`);
+  } finally {
+    server.close();
+  }
+}
+
+const { bounds: [west, south, east, north] } = JSON.parse(readFileSync(join(site, 'site.json'), 'utf8'));
+const at = (zoom) => `#map=${zoom}/${(south + north) / 2}/${(west + east) / 2}`;
+await measured('the page', site, [at(11), at(13), at(15)], 3);
+if (geojson) await measured('one GeoJSON', plainPage(join(site, '../plain')), ['#plain'], 1);
