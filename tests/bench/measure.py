@@ -8,7 +8,7 @@ WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
-NAME           start process estimation match store calibration render vector_tile; all when none is named
+NAME           start process estimation match store calibration render vector_tile web; all when none is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
 the median of the turns, and the ratio is what counts. CPU seconds are user and system together.
@@ -274,7 +274,7 @@ PARTS = {
                    "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
-          "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles"}
+          "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles", "web": "Web page"}
 
 
 def kept(document, sections):
@@ -342,6 +342,23 @@ def vector_tiles(build, work):
         "gzipped as in files.\n\n" + head + rows
 
 
+def web_page(build, work, macadam):
+    """The page of a site of a million segments in Chromium, beside a plain page with one GeoJSON of the same data."""
+    store, site, geojson = tile_store(build, work, 223), work / "web" / "site", work / "web" / "roads.geojson"
+    shutil.rmtree(site.parent, ignore_errors=True)
+    site.parent.mkdir()
+    made = run([macadam, "export", store, "-o", site, "--format", "site", "--quiet"])
+    run([macadam, "export", store, "-o", geojson, "--quiet"])
+    files = sum(file.stat().st_size for file in site.rglob("*") if file.is_file()) / 1e6
+    say("the page in Chromium")
+    rows = subprocess.run(["node", SOURCE / "web" / "tests" / "bench.mjs", site, geojson], stdout=subprocess.PIPE, check=True, text=True).stdout
+    return f"The site of a million segments takes {made.wall_s:.0f} s and {made.peak_mb:.0f} MB to export and has {files:.0f} MB; the GeoJSON has " + \
+        f"{geojson.stat().st_size / 1e6:.0f} MB. Debian's Chromium, loopback, gzip, the CPU slowed 4 times until the first whole picture; then panning at " + \
+        "1280 x 800 at zooms 11, 13 and 15 (GeoJSON: 14) at full speed: frames a second and, a frame, CPU of the page's thread and of the " + \
+        "process that draws, by software: there is no graphics card.\n\n" + \
+        table(["page", "first picture", "transferred", "panning", "memory of its process"], []) + rows
+
+
 def calibration(build, work, macadam, cars):
     """`calibrate` and `info` of fleets that double, to `cars`."""
     rows = []
@@ -370,6 +387,8 @@ def measured(name, arguments, macadam):
         return start(macadam, arguments.work)
     if name == "process":
         return process(macadam, arguments.work)
+    if name == "web":
+        return web_page(arguments.build, arguments.work, macadam)
     if name == "match":
         return match_report(arguments.build, arguments.kubicka)
     text = part(arguments.build, name, PARTS[name])

@@ -45,9 +45,11 @@ export function openPanel(place, data, totals, worst, act) {
     const totalKm = [...kilometres(totals, site, () => 0).values()][0] ?? 0;
     const key = (mark, label) => el('li', {}, mark, label);
     const chip = (step, label) => key(el('span', { class: `chip ${step}` }), label);
-    replace(peek, state.mode === 'change' ? ['better', 'worse', 'unsure'].map((step) => chip(step, w(`site.change.${step}`)))
+    const isSwiped = state.mode === 'change' && state.swipe === 'on';
+    const classKeys = site.classes.map(({ name, colour }) => key(swatch(colour), className(name)));
+    replace(peek, isSwiped ? [...classKeys, chip('unsure', w('site.change.unsure'))] : state.mode === 'change' ? ['better', 'worse', 'unsure'].map((step) => chip(step, w(`site.change.${step}`)))
       : state.mode === 'confidence' ? [chip('high', w('site.narrow.0')), chip('mid', w('site.narrow.1')), chip('low', w('site.confidence.low'))]
-        : site.classes.map(({ name, colour }) => key(swatch(colour), className(name))));
+        : classKeys);
     const focused = document.activeElement?.dataset?.key;
     replace(legend,
       modes(),

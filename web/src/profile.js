@@ -70,7 +70,7 @@ function chart(route, site, act) {
     replace(summary, el('p', { class: 'value' }, el('strong', {}, iri(part.iri)), ` ${iriUnit()} IRI`),
       el('dl', {}, el('dt', {}, w('site.interval')), el('dd', {}, interval(part.iri_low, part.iri_high)),
         el('dt', {}, w('site.length')), el('dd', {}, roadLength(part.metres / 1000)),
-        part.worst && el('dt', {}, w('site.worst_of')), part.worst && el('dd', {}, `${iri(part.worst.segment.iri)} ${iriUnit()}, ${metres(part.worst.from)}`)));
+        part.worst && el('dt', {}, w('site.worst_of')), part.worst && el('dd', {}, `${iri(part.worst.segment.iri)} · ${metres(part.worst.from)}`)));
     replace(rows, table(inside, act.open));
     act.show(inside.map(({ segment }) => segment.line));
   };

@@ -28,6 +28,13 @@ map.on('idle', () => { if (map.isSourceLoaded('roads') && map.queryRenderedFeatu
   return folder;
 }
 
+// Seconds of CPU that a kind of Chromium's processes took.
+async function cpuOf(browser, kind) {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send('SystemInfo.getProcessInfo');
+  return processInfo.filter(({ type }) => type === kind).reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+}
+
 async function memory(browser) {
   const session = await browser.newBrowserCDPSession();
   const { processInfo } = await session.send('SystemInfo.getProcessInfo');
@@ -50,8 +57,8 @@ async function open(server, hash = '') {
   return { browser, page, ms: await page.evaluate(() => globalThis.drawnMs), bytes: server.sent.bytes };
 }
 
-// Frames a second while the map is dragged to and fro.
-async function panning(page) {
+// While the map is dragged to and fro: frames a second, and milliseconds of CPU a frame in the page and in the process that draws.
+async function panning(browser, page) {
   const box = await page.locator('#map canvas').first().boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.evaluate(() => {
@@ -59,16 +66,25 @@ async function panning(page) {
     const count = () => { globalThis.frames += 1; requestAnimationFrame(count); };
     requestAnimationFrame(count);
   });
+  const session = await page.context().newCDPSession(page);
+  await session.send('Performance.enable');
+  const taken = async () => {
+    const { metrics } = await session.send('Performance.getMetrics');
+    const [ms, frames] = await page.evaluate(() => [performance.now(), globalThis.frames]);
+    return { ms, frames, page: 1000 * metrics.find(({ name }) => name === 'TaskDuration').value, drawing: 1000 * await cpuOf(browser, 'GPU') };
+  };
   await page.mouse.move(x, y);
   await page.mouse.down();
-  const begin = await page.evaluate(() => [performance.now(), globalThis.frames]);
+  const begin = await taken();
   for (let i = 1; i <= 120; ++i) {
     await page.mouse.move(x + 260 * Math.sin(i / 12), y + 160 * Math.sin(i / 19));
     await page.waitForTimeout(16);
   }
-  const end = await page.evaluate(() => [performance.now(), globalThis.frames]);
+  const end = await taken();
   await page.mouse.up();
-  return (end[1] - begin[1]) / (end[0] - begin[0]) * 1000;
+  const frames = end.frames - begin.frames;
+  const [rate, ...costs] = [frames / (end.ms - begin.ms) * 1000, (end.page - begin.page) / frames, (end.drawing - begin.drawing) / frames];
+  return `${rate.toFixed(0)} (${costs.map((each) => each.toFixed(0)).join(' + ')} ms)`;
 }
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
@@ -88,12 +104,12 @@ async function measured(name, folder, hashes, turns) {
       const { browser, page } = await open(server, hash);
       if (hash === '#plain') await page.evaluate(() => globalThis.map.setZoom(14));
       await page.waitForTimeout(1000);
-      frames.push(await panning(page));
+      frames.push(await panning(browser, page));
       await page.waitForTimeout(2000);
       most = Math.max(most, await memory(browser));
       await browser.close();
     }
-    console.log(`| ${name} | ${(median(starts.map(({ ms }) => ms)) / 1000).toFixed(2)} s | ${median(starts.map(({ mb }) => mb)).toFixed(2)} MB | ${frames.map((each) => each.toFixed(0)).join(', ')} | ${most.toFixed(0)} MB |`);
+    console.log(`| ${name} | ${(median(starts.map(({ ms }) => ms)) / 1000).toFixed(2)} s | ${median(starts.map(({ mb }) => mb)).toFixed(2)} MB | ${frames.join(', ')} | ${most.toFixed(0)} MB |`);
   } catch (error) {
     console.log(`| ${name} | none in ${waits / 1000} s (${String(error.message).split('\n')[0]}) | | | |`);
   } finally {
