@@ -9,6 +9,7 @@
 #include "app/serve/served_store.hpp"
 #include "app/serve/server_metrics.hpp"
 #include "app/serve/trips/trips_api.hpp"
+#include "app/site/site_page.hpp"
 #include "app/uploads/upload_workers.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/utc.hpp"
@@ -137,6 +138,19 @@ bool wants_map(const HttpRequest& request) {
            accept.find("text/html") < accept.find("json");
 }
 
+/// Returns a file of the recorder, which is there before the first map; `std::nullopt` if it is
+/// none.
+std::optional<HttpResponse> recorder_file(const std::string& path) {
+    if (!path.starts_with("/drive/")) {
+        return std::nullopt;
+    }
+    try {
+        return file_response(site_page_folder(), path);
+    } catch (const InputError&) { // this build has no page
+        return std::nullopt;
+    }
+}
+
 /// Answers from the API, or else from the files of the web page.
 HttpResponse answered(Pages& pages, const ApiContext& context) {
     if (const auto page = wants_map(context.request) ? pages.live.page() : nullptr) {
@@ -170,6 +184,8 @@ HttpResponse answered(Pages& pages, const ApiContext& context) {
         if (auto response = file_response(page->path() / "site", context.request.path)) {
             return *std::move(response);
         }
+    } else if (auto response = recorder_file(context.request.path)) {
+        return *std::move(response);
     }
     return http_problem(404, "there is no such page");
 }

@@ -77,6 +77,27 @@ void create(const Arguments& arguments,
     console.say(fmt::format("valid until {}; it cannot be shown again", utc_day(token.expires_ms)));
 }
 
+void invite(const Arguments& arguments,
+            const std::filesystem::path& store,
+            const Console& console) {
+    constexpr std::int64_t days_to_accept = 14;
+    const auto url = arguments.value("--url");
+    if (!url || !url->starts_with("http")) {
+        throw UsageError{"--url is missing, expected the public address of the server: "
+                         "https://roads.example.org"};
+    }
+    const auto now = now_ms();
+    const Invitation invitation{.owner = name_in(arguments),
+                                .expires_ms = now + days_to_accept * ms_per_day,
+                                .token_expires_ms = expiry_in(arguments, now)};
+    auto uploads = made_uploads(store);
+    print(fmt::format("{}/drive/#invite={}\n",
+                      url->substr(0, url->find_last_not_of('/') + 1),
+                      create_invitation(uploads, invitation)));
+    console.say(fmt::format("for one phone, until {}; it cannot be shown again",
+                            utc_day(invitation.expires_ms)));
+}
+
 void list(const Arguments& arguments, const std::filesystem::path& store) {
     std::vector<AccessToken> tokens;
     if (takes_uploads(store)) {
@@ -133,18 +154,22 @@ void run_token(const Arguments& arguments, const Console& console) {
     static_cast<void>(StoreReader::open(store)); // refuses other files
     if (action == "create") {
         create(arguments, store, console);
+    } else if (action == "invite") {
+        invite(arguments, store, console);
     } else if (action == "list") {
         list(arguments, store);
     } else if (action == "revoke") {
         revoke(arguments, store, console);
     } else {
-        throw UsageError{
-            fmt::format("ACTION is {}, expected create, list or revoke", in_quotes(action))};
+        throw UsageError{fmt::format("ACTION is {}, expected create, invite, list or revoke",
+                                     in_quotes(action))};
     }
 }
 
 constexpr std::array operands{
-    Operand{.name = "ACTION", .help = "create, list or revoke.", .choices = "create|list|revoke"},
+    Operand{.name = "ACTION",
+            .help = "create, invite, list or revoke.",
+            .choices = "create|invite|list|revoke"},
     store_operand,
     Operand{.name = "NAME",
             .help = "Whose token it is; tokens of one name share their trips. 'revoke' also takes "
@@ -159,6 +184,7 @@ constexpr std::array options{
             "--only-with-token. operator: everything.",
             "upload"}),
     Option{"--days", "N", "Days until it expires.", "365"},
+    Option{"--url", "URL", "With 'invite': the public address of the server."},
     Option{"--json", "", "With 'list': one JSON array."}};
 
 } // namespace
@@ -171,9 +197,11 @@ const Command token_command{
              "256 random bits, and only its SHA-256 is kept, in the folder STORE.uploads/ beside "
              "the database. Clients send it\n"
              "as 'Authorization: Bearer TOKEN', or as the password of HTTP Basic with any user "
-             "name.",
+             "name. 'invite' prints the address of the recorder with an invitation, by which one "
+             "phone gets a token within 14 days.",
     .example = "  macadam token create roads.gpkg anna\n"
                "  macadam token create roads.gpkg office --scope operator --days 30\n"
+               "  macadam token invite roads.gpkg ben --url https://roads.example.org\n"
                "  macadam token list roads.gpkg\n"
                "  macadam token revoke roads.gpkg anna",
     .operands = operands,

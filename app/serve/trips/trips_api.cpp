@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::string_view trips_path = "/v1/trips";
 constexpr std::string_view trip_route = "/v1/trips/{sha256}";
+constexpr std::string_view tokens_path = "/v1/tokens";
 constexpr std::size_t max_listed = 1000;
 
 std::int64_t now_ms() {
@@ -37,6 +38,11 @@ std::string hash_in(std::string_view path) {
     const bool is_hash = path[trips_path.size()] == '/' &&
                          hash.find_first_not_of("0123456789abcdef") == std::string_view::npos;
     return is_hash ? std::string{hash} : std::string{};
+}
+
+/// Pattern of a path of this API.
+std::string_view route_of(std::string_view path) {
+    return path == tokens_path ? tokens_path : path == trips_path ? trips_path : trip_route;
 }
 
 HttpResponse routed(HttpResponse response, std::string_view route) {
@@ -64,7 +70,8 @@ HttpResponse no_token() {
 
 /// Methods of a path, "" if there is no such path.
 std::string_view methods_of(std::string_view path) {
-    return path == trips_path       ? "GET, HEAD"
+    return path == tokens_path      ? "POST"
+           : path == trips_path     ? "GET, HEAD"
            : !hash_in(path).empty() ? "GET, HEAD, PUT, DELETE"
                                     : "";
 }
@@ -123,7 +130,7 @@ std::optional<HttpResponse> TripsApi::refused_rate(const HttpRequest& request,
 HttpAdmission TripsApi::admit(const HttpRequest& request) {
     const auto methods = methods_of(request.path);
     const auto sha256 = hash_in(request.path);
-    const auto route = sha256.empty() ? trips_path : trip_route;
+    const auto route = route_of(request.path);
     try {
         auto* const uploads = opened(of_network_);
         if (uploads == nullptr || methods.empty()) {
@@ -138,6 +145,9 @@ HttpAdmission TripsApi::admit(const HttpRequest& request) {
             find_token(*uploads, token_in(request.header("authorization")), now_ms());
         if (auto refusal = refused_rate(request, token)) {
             return {.refusal = routed(*std::move(refusal), route)};
+        }
+        if (request.path == tokens_path) {
+            return {};
         }
         if (!token) {
             return {.refusal = routed(no_token(), route)};
@@ -191,10 +201,13 @@ HttpAdmission TripsApi::admit_upload(const HttpRequest& request,
 
 HttpResponse TripsApi::answer(const HttpRequest& request) {
     const auto sha256 = hash_in(request.path);
-    const auto route = sha256.empty() ? trips_path : trip_route;
+    const auto route = route_of(request.path);
     const std::scoped_lock lock{mutex_};
     try {
         auto* const uploads = opened(uploads_);
+        if (uploads != nullptr && request.path == tokens_path) {
+            return routed(accept_invitation(*uploads, request), route);
+        }
         const auto token =
             uploads == nullptr
                 ? std::nullopt
@@ -234,6 +247,13 @@ HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request
                              : fmt::format(R"({{"sha256":"{}","state":"known"}})", upload.sha256));
     response.headers.emplace_back("Location", config_.base + request.path);
     return response;
+}
+
+HttpResponse TripsApi::accept_invitation(Database& uploads, const HttpRequest& request) {
+    const auto token =
+        take_invitation(uploads, token_in(request.header("authorization")), now_ms());
+    return token ? json_response(201, fmt::format(R"({{"token":"{}"}})", *token))
+                 : http_problem(401, "the invitation was accepted before, has expired or is none");
 }
 
 HttpResponse TripsApi::list(Database& uploads, const AccessToken& token) const {

@@ -58,6 +58,7 @@ private:
     HttpAdmission
     admit_upload(const HttpRequest& request, const std::string& sha256, const AccessToken& token);
     HttpResponse take_upload(Database& uploads, const HttpRequest& request);
+    static HttpResponse accept_invitation(Database& uploads, const HttpRequest& request);
     HttpResponse list(Database& uploads, const AccessToken& token) const;
     HttpResponse one(Database& uploads,
                      const HttpRequest& request,

@@ -76,6 +76,19 @@ void add_trip_paths(JsonObject& paths) {
         R"("application/zstd":{"schema":{"type":"string","format":"binary"}},)"
         R"("application/zip":{"schema":{"type":"string","format":"binary"}},)"
         R"("application/x-tar":{"schema":{"type":"string","format":"binary"}}}})";
+    JsonObject tokens;
+    tokens.add(
+        "post",
+        JsonRaw{operation_text(
+            {.id = "acceptInvitation",
+             .summary = "Exchange an invitation, sent as a token, for a token; once",
+             .responses =
+                 {{201,
+                   response_text(
+                       "The token",
+                       R"({"type":"object","required":["token"],"properties":{"token":{"type":"string"}}})")}},
+             .problems = {401, 404, 429, 503}})});
+    paths.add("/v1/tokens", JsonRaw{tokens.text()});
     JsonObject list;
     list.add("get",
              JsonRaw{operation_text({.id = "trips",

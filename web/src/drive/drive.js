@@ -7,7 +7,7 @@ import { fixColumn } from './samples.js';
 import { askForMotion, keepAwake, listen } from './sensors.js';
 import { TripStore } from './trip_store.js';
 import { endTrip, fileName, newTrip, randomName, recordedFor_ms, sendQueued } from './trips.js';
-import { deleteAtServer } from './upload.js';
+import { acceptInvitation, deleteAtServer } from './upload.js';
 import { wordsOf } from './words.js';
 
 const page = document.getElementById('page');
@@ -204,6 +204,7 @@ async function sendAll() {
   isSending = true;
   clearTimeout(sendTimer);
   try {
+    await acceptWaitingInvitation();
     const send = async () => sendQueued(store, {
       token: await store.setting('token'),
       base: serverBase,
@@ -392,13 +393,25 @@ async function begin() {
   return show(homeView);
 }
 
-// Takes the token of an invitation (…/drive/#invite=TOKEN), which never reaches a server as part of an address.
+// Takes an invitation (…/drive/#invite=TEXT), which never reaches a server as part of an address.
 async function takeInvitation() {
-  const token = new URLSearchParams(location.hash.slice(1)).get('invite');
-  if (token && /^[\w.~-]{16,200}$/.test(token)) {
-    await store.setSetting('token', token);
+  const invitation = new URLSearchParams(location.hash.slice(1)).get('invite');
+  if (invitation && /^[\w.~-]{16,200}$/.test(invitation)) {
+    await store.setSetting('token', invitation); // which it may be already
+    await store.setSetting('invitation', invitation);
     history.replaceState(null, '', location.pathname);
     say(words('invited'));
+    await acceptWaitingInvitation();
+  }
+}
+
+// Gets the token of an invitation, now or when there is a network.
+async function acceptWaitingInvitation() {
+  const invitation = await store.setting('invitation');
+  const token = invitation && navigator.onLine ? await acceptInvitation(invitation, { base: serverBase }) : undefined;
+  if (token !== undefined) {
+    await store.setSetting('token', token ?? invitation);
+    await store.setSetting('invitation', null);
   }
 }
 

@@ -64,6 +64,20 @@ export async function sendTrip(trip, { token, base, fetch = globalThis.fetch }) 
   }
 }
 
+// Exchanges an invitation for a token. Returns the token; null: it is no invitation (any more), perhaps a token itself;
+// undefined: the server does not answer now.
+export async function acceptInvitation(invitation, { base, fetch = globalThis.fetch }) {
+  try {
+    const response = await fetch(new URL('v1/tokens', base), { method: 'POST', headers: authorisation(invitation) });
+    if (response.status === 429 || response.status >= 500) {
+      return undefined;
+    }
+    return response.ok ? (await response.json()).token : null;
+  } catch {
+    return undefined;
+  }
+}
+
 // Asks for a trip to be deleted at the server. Returns whether it is gone there.
 export async function deleteAtServer(sha256, { token, base, fetch = globalThis.fetch }) {
   try {

@@ -1,7 +1,7 @@
 // The recorder in Chromium: from the first visit to a map.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -229,6 +229,56 @@ describe('the recorder in the browser', () => {
     assert.ok(!page.url().includes('#'));
     await context.close();
     closed.close();
+  });
+
+  it('a drive goes from the phone to the map: by an invitation, to a real server, which imports it', async () => {
+    const cars = join(folder, 'cars');
+    mkdirSync(cars);
+    macadam('init', 'way.gpkg', '--network', 'fleet/network.osm.pbf', '--privacy', 'crowd', '--quiet');
+    const real = spawn(program, ['serve', 'way.gpkg', '--listen', '127.0.0.1:0', '--vehicles', cars], { cwd: folder, stdio: ['ignore', 'ignore', 'pipe'] });
+    try {
+      const base = await new Promise((found, failed) => {
+        real.stderr.on('data', (text) => { const [, url] = /serving on (http:\S+\/);/.exec(text) ?? []; url && found(url); });
+        real.on('exit', () => failed(new Error('the server ended')));
+      });
+      const invite = macadam('token', 'invite', 'way.gpkg', 'ada', '--url', base, '--quiet').trim();
+      const { context, page, complaints } = await phone({ url: invite });
+      await recorded(page, eventsOf(drive));
+      const { bytes } = await savedFile(page);
+      const [, id] = /# vehicle_id: (\S+)/.exec(bytes.toString());
+      writeFileSync(join(cars, `${id}.toml`), readFileSync(join(folder, 'fleet/vehicles/phone-car.toml'), 'utf8').replace('"phone-car"', `"${id}"`));
+      await tap(page, /^Send/);
+      await page.getByText('Received by the server and deleted here.').waitFor({ timeout: 15_000 });
+      const token = await page.evaluate(async () => { // as the page keeps it
+        const open = indexedDB.open('macadam-drive');
+        await new Promise((done) => { open.onsuccess = done; });
+        const all = open.result.transaction('settings').objectStore('settings').get('token');
+        await new Promise((done) => { all.onsuccess = done; });
+        return all.result;
+      });
+      let fate;
+      for (const end = Date.now() + 60_000; !fate || ['queued', 'working'].includes(fate.state);) {
+        assert.ok(Date.now() < end, 'not imported in a minute');
+        await new Promise((done) => { setTimeout(done, 200); });
+        const answer = await fetch(new URL('v1/trips', base), { headers: { Authorization: `Bearer ${token}` } });
+        fate = (await answer.json()).trips[0];
+      }
+      assert.equal(fate.state, 'imported');
+      const [head, ...rows] = macadam('query', 'way.gpkg', '--bbox=-180,-90,180,90', '--format', 'csv').trim().split('\n').map((line) => line.split(','));
+      const [segment, iri] = ['segment', 'iri'].map((column) => head.indexOf(column));
+      const { count, ratio } = compared(new Map(rows.map((row) => [row[segment], Number(row[iri])]).filter(([, value]) => value > 0)), fileIri());
+      console.log(`${count} segments, mean IRI ${(100 * (ratio - 1)).toFixed(2)} % apart after the upload`);
+      assert.ok(count > 60, `${count} segments in common`);
+      assert.ok(Math.abs(ratio - 1) < 0.03, `${ratio}`);
+      assert.deepEqual(readdirSync(join(folder, 'way.gpkg.uploads/spool')), []); // the log is erased
+      page.once('dialog', (dialog) => dialog.accept());
+      await tap(page, /^Delete at the server/);
+      await page.getByText('Deleted at the server.').waitFor();
+      assert.deepEqual(complaints, []);
+      await context.close();
+    } finally {
+      real.kill('SIGKILL');
+    }
   });
 
   it('a killed browser loses at most five seconds of a trip, and the trip goes on', async () => {
