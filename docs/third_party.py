@@ -70,10 +70,16 @@ def headers_of(build):
     return found
 
 
+def static_libraries_of(build):
+    """Archives of the system of which the product contains a part."""
+    cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+    return {re.search(r"^MACADAM_MUSL_LIBRARY:FILEPATH=(.+)$", cache, re.MULTILINE)[1]}
+
+
 def libraries_of(build):
     """Shared libraries that the program, its plug-ins and the Python module name."""
     folder = build.parent if (build.parent / "macadam").exists() else build
-    linked = [folder / "macadam", *sorted((folder / "lib").glob("macadam_*.so")),
+    linked = [folder / "macadam", *sorted((folder / "lib").glob("macadam_*")),
               *(folder / "python/macadam").glob("_macadam.*.so")]
     names, paths = set(OPENED_LATE), {}
     for file in linked:
@@ -159,7 +165,7 @@ def npm_rows():
 
 def document(build):
     libraries = packages_of(libraries_of(build))
-    compiled_in = packages_of(headers_of(build))
+    compiled_in = packages_of(headers_of(build) | static_libraries_of(build))
     yield "# Third-party work"
     yield ""
     yield "Macadam itself is under the Apache License 2.0 ([LICENSE](LICENSE)). This page is made from a"
@@ -167,9 +173,9 @@ def document(build):
     yield ""
     yield "## Compiled in"
     yield ""
-    yield "Headers of these packages are part of the program. Of those that also have a library below, they"
-    yield "are declarations. The C++ standard library is under GPL-3 with the GCC runtime library exception,"
-    yield "which leaves the licence of compiled programs free."
+    yield "Headers of these packages are part of the program, and the elementary functions of musl-dev. Headers of"
+    yield "those that also have a library below are declarations. The C++ standard library is under GPL-3 with the"
+    yield "GCC runtime library exception, which leaves the licence of compiled programs free."
     yield ""
     yield from table(compiled_in)
     yield ""

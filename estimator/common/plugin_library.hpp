@@ -20,7 +20,7 @@ void* plugin_symbol(const char* library, const char* symbol);
 /// a program.
 std::string plugin_path(std::string_view file);
 
-/// Typed version: `plugin_function<void(int)>("macadam_geodesy.so", "name")(1)`.
+/// Typed version: `plugin_function<void(int)>("macadam_gdal.so", "name")(1)`.
 template <typename Function>
 Function* plugin_function(const char* library, const char* symbol) {
     return reinterpret_cast<Function*>(

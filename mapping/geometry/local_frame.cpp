@@ -1,15 +1,16 @@
 #include "mapping/geometry/local_frame.hpp"
 
 #include "estimator/common/angle.hpp"
-#include "estimator/common/plugin_library.hpp"
-#include "mapping/geometry/geodesy_plugin.hpp"
 
 #include <cmath>
 
 namespace macadam {
 namespace {
 
-const char* const library = "macadam_geodesy.so";
+// WGS 84 (NIMA TR8350.2, third edition, table 3.1).
+constexpr double equator_m = 6378137;
+constexpr double flattening = 1 / 298.257223563;
+constexpr double square_eccentricity = flattening * (2 - flattening);
 
 struct Vector3 {
     double x, y, z;
@@ -34,13 +35,9 @@ double dot(const Vector3& a, const Vector3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Returns the earth-centred position of a point on the ellipsoid. Called tens of thousands of
-/// times per trip, and accurate to a nanometre in double, so MRPT's long double is not needed.
-/// Source: Snyder, "Map Projections: A Working Manual" (1987), eq. 4-20; WGS 84.
+/// Returns the earth-centred position of a point on the ellipsoid, to a nanometre.
+/// Source: Snyder, "Map Projections: A Working Manual" (1987), eq. 4-20.
 Vector3 geocentric(const GeoPoint& point) {
-    constexpr double equator_m = 6378137;
-    constexpr double flattening = 1 / 298.257223563;
-    constexpr double square_eccentricity = flattening * (2 - flattening);
     const double lat = point.lat_deg * rad_per_deg;
     const double lon = point.lon_deg * rad_per_deg;
     const double sin_lat = std::sin(lat);
@@ -49,6 +46,30 @@ Vector3 geocentric(const GeoPoint& point) {
     return {normal_m * cos_lat * std::cos(lon),
             normal_m * cos_lat * std::sin(lon),
             normal_m * (1 - square_eccentricity) * sin_lat};
+}
+
+struct PlaceAbove {
+    GeoPoint point;
+    double height_m; ///< above the ellipsoid
+};
+
+/// Returns where an earth-centred position is, within a tenth of the earth's radius of the
+/// ellipsoid, and exactly on it.
+/// Source: Bowring, "Transformation from spatial to geographical coordinates", Survey Review 23
+/// (1976): one step from the reduced latitude, which is within 1e-9 rad at 1000 km of height.
+PlaceAbove geodetic(const Vector3& at) {
+    constexpr double polar_m = equator_m * (1 - flattening);
+    constexpr double second_square_eccentricity = square_eccentricity / (1 - square_eccentricity);
+    const double from_axis_m = std::sqrt(at.x * at.x + at.y * at.y);
+    const double reduced = std::atan2(at.z * equator_m, from_axis_m * polar_m);
+    const double sine = std::sin(reduced), cosine = std::cos(reduced);
+    const double lat =
+        std::atan2(at.z + second_square_eccentricity * polar_m * sine * sine * sine,
+                   from_axis_m - square_eccentricity * equator_m * cosine * cosine * cosine);
+    const double sin_lat = std::sin(lat), cos_lat = std::cos(lat);
+    return {{lat * deg_per_rad, std::atan2(at.y, at.x) * deg_per_rad},
+            from_axis_m * cos_lat + at.z * sin_lat -
+                equator_m * std::sqrt(1 - square_eccentricity * sin_lat * sin_lat)};
 }
 
 } // namespace
@@ -71,9 +92,6 @@ std::vector<PointEn> LocalFrame::to_local(std::span<const GeoPoint> points) cons
 }
 
 GeoPoint LocalFrame::to_geo(const PointEn& point) const {
-    static const auto geodetic =
-        plugin_function<GeodesyToGeodetic>(library, geodesy_to_geodetic_name);
-
     const auto axes = axes_at(origin);
     const auto base = geocentric(origin);
 
@@ -85,11 +103,12 @@ GeoPoint LocalFrame::to_geo(const PointEn& point) const {
     double height_m = 1;
     GeoPoint found = origin;
     for (int round = 0; round < max_rounds && std::abs(height_m) > level_m; ++round) {
-        const double at[3] = {
-            base.x + axes.east.x * point.east_m + axes.north.x * point.north_m + axes.up.x * up,
-            base.y + axes.east.y * point.east_m + axes.north.y * point.north_m + axes.up.y * up,
-            base.z + axes.east.z * point.east_m + axes.north.z * point.north_m + axes.up.z * up};
-        height_m = geodetic(at, &found);
+        const auto place = geodetic(
+            {base.x + axes.east.x * point.east_m + axes.north.x * point.north_m + axes.up.x * up,
+             base.y + axes.east.y * point.east_m + axes.north.y * point.north_m + axes.up.y * up,
+             base.z + axes.east.z * point.east_m + axes.north.z * point.north_m + axes.up.z * up});
+        found = place.point;
+        height_m = place.height_m;
         up -= height_m;
     }
     return found;
