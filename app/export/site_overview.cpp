@@ -24,7 +24,8 @@ bool write_overview(const StoreReader& store,
         .filter = filter, .title = title, .width_px = width_px, .height_px = height_px};
     request.style.classes = class_table(store.settings().class_table);
     request.style.left_hand_traffic = left_hand;
-    const PictureOutput output{.file = file, .width_px = width_px, .height_px = height_px};
+    const PictureOutput output{
+        .file = file, .width_px = width_px, .height_px = height_px, .crs = {}};
     const auto progress = console.progress("drawing");
     try {
         write_picture(load_map(store, request), output, "", progress, [] {});
