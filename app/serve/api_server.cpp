@@ -263,12 +263,13 @@ HttpHandlers common_handlers(ServerMetrics& metrics,
 }
 
 /// Admits what has a path of trips by its rules; else only what reads.
-HttpAdmission admitted(TripsApi& trips, const HttpRequest& request) {
+HttpAdmission admitted(TripsApi& trips, const HttpRequest& request, bool only_with_token) {
     if (TripsApi::has_path(request.path)) {
         return trips.admit(request);
     }
     if (reads(request)) {
-        return {};
+        const bool is_open = !only_with_token || request.path.starts_with("/drive/");
+        return {.refusal = is_open ? std::nullopt : trips.refused_reading(request)};
     }
     auto refusal = http_problem(405, "expected GET or HEAD");
     refusal.headers.emplace_back("Allow", "GET, HEAD");
@@ -310,7 +311,9 @@ void serve_database(const std::filesystem::path& file,
     };
     follow();
     auto handlers = common_handlers(metrics, running, address, console);
-    handlers.admit = [&](const HttpRequest& request) { return admitted(trips, request); };
+    handlers.admit = [&](const HttpRequest& request) {
+        return admitted(trips, request, reception.only_with_token);
+    };
     handlers.answer = [&](const HttpRequest& request, std::size_t worker) {
         if (TripsApi::has_path(request.path)) {
             return trips.answer(request);

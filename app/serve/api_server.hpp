@@ -19,10 +19,11 @@ struct ServedAddress {
     bool has_access_log = false; ///< a line on standard output for each request
 };
 
-/// How a server works out the trips that it receives.
+/// Whom a server serves, and how it works out the trips that it receives.
 struct TripReception {
     std::size_t workers = 1;                 ///< threads; 0: `macadam worker` does it
     std::vector<std::string> import_words{}; ///< upload_arguments()
+    bool only_with_token = false; ///< also to read, but for the recorder, /health and /metrics
 };
 
 /// Serves a database until a stop is requested: OGC API, tiles, trips, /health and /metrics.

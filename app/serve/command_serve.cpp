@@ -64,7 +64,8 @@ TripReception parse_reception(const Arguments& arguments) {
     if (workers < 0 || workers > max_workers) {
         throw UsageError{fmt::format("--workers is {}, expected 0 to {}", workers, max_workers)};
     }
-    TripReception reception{.workers = static_cast<std::size_t>(workers)};
+    TripReception reception{.workers = static_cast<std::size_t>(workers),
+                            .only_with_token = arguments.flag("--only-with-token")};
     for (const std::string name : {"--vehicles", "--method"}) {
         if (const auto value = arguments.value(name)) {
             reception.import_words.insert(reception.import_words.end(), {name, *value});
@@ -117,6 +118,7 @@ constexpr std::array options{
     Option{"--allow-origin",
            "ORIGIN",
            "Let pages of this site, or * for all, read the answers (CORS)."},
+    Option{"--only-with-token", "", "Show nothing without a token of scope read or operator."},
     Option{"--workers",
            "N",
            "Number of threads that import received trips; 0: 'macadam worker' does it.",

@@ -101,6 +101,21 @@ HttpResponse json_response(int status, const std::string& text) {
     return {.status = status, .body = text + "\n", .cache_control = "no-store"};
 }
 
+/// Returns the state as one server-sent event, after which the client comes again; 204, which ends
+/// its visits, once it has the last one.
+HttpResponse event_response(const HttpRequest& request, const Upload& upload) {
+    const auto state = upload.deleting ? "deleting" : name_of(upload.state);
+    const bool is_last = !upload.deleting && upload.state != UploadState::queued &&
+                         upload.state != UploadState::working;
+    if (is_last && request.header("last-event-id") == state) {
+        return {.status = 204, .cache_control = "no-store"};
+    }
+    return {.type = "text/event-stream",
+            .body = fmt::format(
+                "retry: 1000\nid: {}\nevent: state\ndata: {}\n\n", state, json_of(upload)),
+            .cache_control = "no-store"};
+}
+
 } // namespace
 
 TripsApi::TripsApi(std::filesystem::path store, TripsApiConfig config, std::function<void()> queued)
@@ -125,6 +140,28 @@ std::optional<HttpResponse> TripsApi::refused_rate(const HttpRequest& request,
         wait = token ? by_token_.take(token->id) : failures_.take(request.client);
     }
     return wait ? std::optional{later(429, "too many requests", *wait)} : std::nullopt;
+}
+
+std::optional<HttpResponse> TripsApi::refused_reading(const HttpRequest& request) {
+    try {
+        auto* const uploads = opened(of_network_);
+        const auto text = token_in(request.header("authorization"));
+        const auto token = uploads == nullptr ? std::nullopt : find_token(*uploads, text, now_ms());
+        if (token) {
+            return token->scope != TokenScope::upload
+                       ? std::nullopt
+                       : std::optional{http_problem(403, "this token is for uploads")};
+        }
+        if (const auto wait = text.empty() ? std::nullopt : failures_.take(request.client)) {
+            return later(429, "too many requests", *wait);
+        }
+        auto refusal = http_problem(401, "expected a token, as the password of any user");
+        refusal.headers.emplace_back("WWW-Authenticate", "Basic realm=\"Macadam\"");
+        return refusal;
+    } catch (const InputError&) {
+        of_network_.reset();
+        return later(503, "tokens cannot be read now", std::chrono::minutes{1});
+    }
 }
 
 HttpAdmission TripsApi::admit(const HttpRequest& request) {
@@ -276,7 +313,9 @@ HttpResponse TripsApi::one(Database& uploads,
         return http_problem(404, "there is no such trip of this token's owner");
     }
     if (request.method != "DELETE") {
-        return json_response(200, json_of(*upload));
+        return request.header("accept").find("text/event-stream") == std::string_view::npos
+                   ? json_response(200, json_of(*upload))
+                   : event_response(request, *upload);
     }
     if (delete_upload(uploads, spool_of(store_), sha256)) {
         return {.status = 204, .cache_control = "no-store"};

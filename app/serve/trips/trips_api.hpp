@@ -43,6 +43,10 @@ public:
     /// or with a body that cannot be a trip. For the thread of the network.
     HttpAdmission admit(const HttpRequest& request);
 
+    /// Refuses a request to read what the server shows, unless by a token for that. For the same
+    /// thread.
+    std::optional<HttpResponse> refused_reading(const HttpRequest& request);
+
     /// Answers an admitted request. Thread-safe.
     HttpResponse answer(const HttpRequest& request);
 

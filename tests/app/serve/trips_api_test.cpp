@@ -45,15 +45,17 @@ constexpr std::int64_t far_ahead_ms = 4'000'000'000'000; // in 2096
 
 /// Server that takes trips, with a token of each kind.
 struct TakingWorld {
-    explicit TakingWorld(PrivacyProfile privacy = PrivacyProfile::crowd)
-        : file{new_file(privacy)}, server{[this] {
-              serve_database(file,
-                             Audience::anyone,
-                             {.port = 0},
-                             {},
-                             Console{Verbosity::quiet, stop.get_token()},
-                             [this](std::uint16_t its_port) { started.set_value(its_port); },
-                             {.workers = 0});
+    explicit TakingWorld(PrivacyProfile privacy = PrivacyProfile::crowd,
+                         const TripReception& reception = {.workers = 0})
+        : file{new_file(privacy)}, server{[this, reception] {
+              serve_database(
+                  file,
+                  Audience::anyone,
+                  {.port = 0},
+                  {},
+                  Console{Verbosity::quiet, stop.get_token()},
+                  [this](std::uint16_t its_port) { started.set_value(its_port); },
+                  reception);
           }} {}
     ~TakingWorld() { stop.request_stop(); }
     TakingWorld(const TakingWorld&) = delete;
@@ -256,6 +258,51 @@ TEST(TripsApi, GivesATokenForAnInvitationOnce) {
     EXPECT_EQ(world.put("a log", token).status, 202);
     EXPECT_EQ(world.ask("POST", "/v1/tokens", invitation).status, 401);
     EXPECT_EQ(world.ask("POST", "/v1/tokens", world.anna).status, 401); // a token is none
+}
+
+TEST(TripsApi, TellsTheFateByServerSentEvents) {
+    const TakingWorld world;
+    const std::string log = "a log";
+    const auto target = "/v1/trips/" + sha256_of(log);
+    world.put(log, world.anna);
+    const auto answer = world.ask("GET", target, world.anna, "", "Accept: text/event-stream\r\n");
+    EXPECT_EQ(answer.headers.at("content-type"), "text/event-stream");
+    EXPECT_THAT(answer.body,
+                HasSubstr("retry: 1000\nid: queued\nevent: state\ndata: {\"sha256\":"));
+    EXPECT_TRUE(answer.body.ends_with("\n\n"));
+    auto uploads = open_uploads(world.file);
+    const auto taken = take_uploads(uploads, spool_of(world.file), 1);
+    finish_upload(uploads, spool_of(world.file), taken.at(0).upload(), UploadState::refused, "why");
+    EXPECT_THAT(world.ask("GET", target, world.anna, "", "Accept: text/event-stream\r\n").body,
+                HasSubstr("id: refused\n"));
+    EXPECT_EQ(world
+                  .ask("GET",
+                       target,
+                       world.anna,
+                       "",
+                       "Accept: text/event-stream\r\nLast-Event-ID: refused\r\n")
+                  .status,
+              204);
+}
+
+TEST(TripsApi, ShowsNothingWithoutATokenIfAsked) {
+    const TakingWorld world{PrivacyProfile::crowd, {.workers = 0, .only_with_token = true}};
+    const auto paths =
+        nlohmann::json::parse(world.ask("GET", "/api", world.reader).body).at("paths");
+    std::size_t closed = 0;
+    for (const auto& [path, operations] : paths.items()) {
+        if (!path.starts_with("/v1/") && path != "/health") {
+            const auto answer = world.ask("GET", path, "");
+            EXPECT_EQ(answer.status, 401) << path;
+            EXPECT_EQ(answer.headers.at("www-authenticate"), "Basic realm=\"Macadam\"");
+            EXPECT_EQ(world.ask("GET", path, world.anna).status, 403) << path;
+            ++closed;
+        }
+    }
+    EXPECT_GE(closed, 10U);
+    EXPECT_EQ(world.ask("GET", "/collections", world.reader).status, 200);
+    EXPECT_EQ(world.ask("GET", "/collections", world.operator_).status, 200);
+    EXPECT_EQ(world.ask("GET", "/health", "").status, 200);
 }
 
 TEST(TripsApi, LetsNobodyGuessTokens) {
