@@ -5,6 +5,7 @@
 #include "app/serve/live/live_content.hpp"
 #include "app/serve/ogc/api_description.hpp"
 #include "app/serve/ogc/features_api.hpp"
+#include "app/serve/ogc/per_version.hpp"
 #include "app/serve/ogc/tiles_api.hpp"
 #include "app/serve/served_store.hpp"
 #include "app/serve/server_metrics.hpp"
@@ -93,6 +94,7 @@ constexpr std::array routes{
     Route{"/api", [](Pages&, const ApiContext& c, const PathWords&) { return openapi_page(c); }},
     Route{"/collections", [](Pages& p, const ApiContext& c, const PathWords&) { return p.features.collections(c); }},
     Route{"/collections/{id}", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.collection(c, w[0]); }},
+    Route{"/collections/{id}/queryables", [](Pages&, const ApiContext& c, const PathWords& w) { return FeaturesApi::queryables(c, w[0]); }},
     Route{"/collections/{id}/items", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.items(c, w[0]); }},
     Route{"/collections/{id}/items/{feature}",
           [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.item(c, w[0], w[1]); }},
@@ -171,6 +173,9 @@ HttpResponse answered(Pages& pages, const ApiContext& context) {
             response = http_problem(400, error.what());
         } catch (const SelectionTooLong&) {
             response = http_problem(503, "this selection takes too long; narrow it by bbox");
+        } catch (const StillComputing&) {
+            response = http_problem(503, "this is being computed");
+            response.headers.emplace_back("Retry-After", "2");
         } catch (const InputError& error) {
             if (std::string_view{error.what()}.starts_with(context.store.file().string())) {
                 throw; // of the database, for its operator alone

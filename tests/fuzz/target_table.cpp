@@ -47,7 +47,9 @@ constexpr std::array all{Target{"trip_log", trip_log, 400, 4},
                          Target{"geometry_blob", geometry_blob, 400, 1},
                          Target{"segment_key", segment_key, 400, 1},
                          Target{"utc_time", utc_time, 400, 1},
-                         Target{"command_line", command_line, 400, 1}};
+                         Target{"command_line", command_line, 400, 1},
+                         Target{"cql2_filter", cql2_filter, 400, 1},
+                         Target{"http_request", http_request, 400, 1}};
 
 } // namespace
 

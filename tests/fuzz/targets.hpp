@@ -66,5 +66,7 @@ Answer geometry_blob(std::string_view input);
 Answer segment_key(std::string_view input);
 Answer utc_time(std::string_view input);
 Answer command_line(std::string_view input); ///< a command's name and its words, one a line
+Answer cql2_filter(std::string_view input);  ///< a filter in CQL2 text or JSON, applied
+Answer http_request(std::string_view input); ///< a target, and headers, one a line
 
 } // namespace macadam::fuzz

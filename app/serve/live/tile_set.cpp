@@ -2,6 +2,7 @@
 
 #include "mapping/style/iri_class.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +29,9 @@ TileSet::TileSet(const StoreReader& store,
         constexpr double lat_deg = 85.0511288; // of Web Mercator
         box_ = {-180, -lat_deg, 180, lat_deg};
     }
+    constexpr double least_deg = 1e-6; // 0.1 m: clients take no box without a width or height
+    box_.east_deg = std::max(box_.east_deg, box_.west_deg + least_deg);
+    box_.north_deg = std::max(box_.north_deg, box_.south_deg + least_deg);
 }
 
 std::optional<std::string> TileSet::tile(const TileId& id) const {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 namespace macadam {
 namespace {
@@ -75,6 +76,7 @@ std::string html_page(std::string_view title, std::string_view json) {
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width\">"
+        "<link rel=\"icon\" href=\"data:,\">" // none, rather than a search for /favicon.ico
         "<title>{0}</title></head>\n<body><h1>{0}</h1>\n<pre>{1}</pre></body></html>\n",
         xml_text(title),
         linked_text(in_lines(json)));
@@ -114,7 +116,17 @@ api_page(const ApiContext& context, std::string title, std::string json, std::st
     return response;
 }
 
+void expect_single(const HttpRequest& request) {
+    std::set<std::string_view> names;
+    for (const auto& [name, value] : request.parameters) {
+        if (!names.insert(name).second) {
+            throw UsageError{fmt::format("parameter {} is given twice", in_quotes(name))};
+        }
+    }
+}
+
 void expect_parameters(const HttpRequest& request, const std::vector<std::string_view>& known) {
+    expect_single(request);
     for (const auto& [name, value] : request.parameters) {
         if (name != "f" && std::ranges::find(known, name) == known.end()) {
             throw UsageError{fmt::format("unknown parameter {}", in_quotes(name))};

@@ -35,7 +35,11 @@ HttpResponse api_page(const ApiContext& context,
                       std::string json,
                       std::string_view type = "application/json");
 
-/// Refuses parameters other than those named, and f.
+/// Refuses parameters that are given more than once: clients and proxies differ in which they mean.
+/// \throws UsageError  for the first of them.
+void expect_single(const HttpRequest& request);
+
+/// Refuses those, and parameters other than those named, and f.
 /// \throws UsageError  for the first other one.
 void expect_parameters(const HttpRequest& request, const std::vector<std::string_view>& known = {});
 

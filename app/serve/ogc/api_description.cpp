@@ -1,6 +1,6 @@
 #include "app/serve/ogc/api_description.hpp"
 
-#include "app/serve/ogc/feature.hpp"
+#include "app/serve/features/feature.hpp"
 #include "app/serve/ogc/features_api.hpp"
 #include "app/serve/ogc/items_query.hpp"
 #include "app/serve/trips/trips_description.hpp"
@@ -65,6 +65,14 @@ std::vector<std::string> items_parameters() {
                        "query",
                        text_schema,
                        "Time or interval of the passes: 2026-05-01, 2026-03-01/.."),
+        parameter_text(
+            "filter", "query", text_schema, "Condition in CQL2: iri > 4 AND passes >= 3"),
+        parameter_text(
+            "filter-lang",
+            "query",
+            R"({"type":"string","enum":["cql2-text","cql2-json"],"default":"cql2-text"})",
+            "Language of filter"),
+        parameter_text("filter-crs", "query", uri_schema, "Coordinate reference system of filter"),
         parameter_text("f", "query", R"({"type":"string","enum":["json","html"]})", "Format")};
     for (const auto& column : feature_columns(segment_columns())) {
         const bool is_number = column.type.kind == ColumnType::Kind::integer ||
@@ -128,6 +136,11 @@ std::string paths_text() {
     add("/api", "api", "This definition", openapi_type);
     add("/collections", "collections", "Collections", json);
     add("/collections/{collectionId}", "collection", "A collection", json, {collection});
+    add("/collections/{collectionId}/queryables",
+        "queryables",
+        "Properties for filters",
+        "application/schema+json",
+        {collection});
     add("/collections/{collectionId}/items", "items", "Features", geojson, of_items);
     add("/collections/{collectionId}/items/{featureId}",
         "item",
@@ -211,6 +224,21 @@ HttpResponse conformance_page(const ApiContext& context) {
         "http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/geojson",
         "http://www.opengis.net/spec/ogcapi-features-1/1.0/conf/html",
         "http://www.opengis.net/spec/ogcapi-features-2/1.0/conf/crs",
+        "http://www.opengis.net/spec/ogcapi-features-3/1.0/conf/queryables",
+        "http://www.opengis.net/spec/ogcapi-features-3/1.0/conf/queryables-query-parameters",
+        "http://www.opengis.net/spec/ogcapi-features-3/1.0/conf/filter",
+        "http://www.opengis.net/spec/ogcapi-features-3/1.0/conf/features-filter",
+        "http://www.opengis.net/spec/cql2/1.0/conf/cql2-text",
+        "http://www.opengis.net/spec/cql2/1.0/conf/cql2-json",
+        "http://www.opengis.net/spec/cql2/1.0/conf/basic-cql2",
+        "http://www.opengis.net/spec/cql2/1.0/conf/advanced-comparison-operators",
+        "http://www.opengis.net/spec/cql2/1.0/conf/case-insensitive-comparison",
+        "http://www.opengis.net/spec/cql2/1.0/conf/basic-spatial-functions",
+        "http://www.opengis.net/spec/cql2/1.0/conf/basic-spatial-functions-plus",
+        "http://www.opengis.net/spec/cql2/1.0/conf/spatial-functions",
+        "http://www.opengis.net/spec/cql2/1.0/conf/temporal-functions",
+        "http://www.opengis.net/spec/cql2/1.0/conf/property-property",
+        "http://www.opengis.net/spec/cql2/1.0/conf/arithmetic",
         "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/core",
         "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/tileset",
         "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/tilesets-list",

@@ -1,6 +1,7 @@
 #include "app/serve/ogc/features_api.hpp"
 
 #include "app/cli/arguments.hpp"
+#include "app/serve/ogc/queryables.hpp"
 #include "estimator/common/error.hpp"
 #include "mapping/geometry/antimeridian.hpp"
 #include "mapping/geometry/area.hpp"
@@ -20,6 +21,7 @@ namespace macadam {
 namespace {
 
 constexpr std::string_view geojson_type = "application/geo+json";
+constexpr std::string_view schema_type = "application/schema+json";
 
 struct CollectionText {
     std::string_view id, title, description;
@@ -160,9 +162,11 @@ std::string FeaturesApi::collection_text(const ApiContext& context, std::string_
     });
     const auto& [west, south, east, north] = extent->box;
     const auto here = fmt::format("{}/collections/{}", context.base, id);
-    std::vector<ApiLink> links{{here, "self", "application/json"},
-                               {here + "/items", "items", geojson_type},
-                               {here + "/items?f=html", "items", "text/html"}};
+    std::vector<ApiLink> links{
+        {here, "self", "application/json"},
+        {here + "/items", "items", geojson_type},
+        {here + "/items?f=html", "items", "text/html"},
+        {here + "/queryables", "http://www.opengis.net/def/rel/ogc/1.0/queryables", schema_type}};
     if (id == "segments") {
         links.push_back({here + "/tiles",
                          "http://www.opengis.net/def/rel/ogc/1.0/tilesets-vector",
@@ -216,6 +220,21 @@ HttpResponse FeaturesApi::collection(const ApiContext& context, std::string_view
     return text_of(id) == nullptr
                ? no_collection(id)
                : api_page(context, std::string{text_of(id)->title}, collection_text(context, id));
+}
+
+HttpResponse FeaturesApi::queryables(const ApiContext& context, std::string_view id) {
+    expect_parameters(context.request);
+    const auto* const text = text_of(id);
+    return text == nullptr
+               ? no_collection(id)
+               : api_page(
+                     context,
+                     std::string{text->title},
+                     queryables_text(text->title,
+                                     fmt::format("{}/collections/{}/queryables", context.base, id),
+                                     columns_of(id),
+                                     id == "events"),
+                     schema_type);
 }
 
 // -------------------------------------------------------------------------------------- items

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/serve/features/feature_list.hpp"
 #include "app/serve/ogc/api_context.hpp"
-#include "app/serve/ogc/feature_list.hpp"
 #include "app/serve/ogc/per_version.hpp"
 #include "app/serve/ogc/segment_selections.hpp"
 
@@ -12,15 +12,16 @@
 
 namespace macadam {
 
-/// OGC API - Features, Parts 1 and 2, of the collections segments, worst and events.
+/// OGC API - Features, Parts 1 to 3, of the collections segments, worst and events.
 ///
-/// Sources: OGC 17-069r4, 18-058r1.
+/// Sources: OGC 17-069r4, 18-058r1, 19-079r2.
 class FeaturesApi {
 public:
     /// Each of these throws UsageError for a bad parameter and InputError for what the database
     /// refuses. Unknown collections and features are a response of status 404.
     HttpResponse collections(const ApiContext& context);
     HttpResponse collection(const ApiContext& context, std::string_view id);
+    static HttpResponse queryables(const ApiContext& context, std::string_view id);
     HttpResponse items(const ApiContext& context, std::string_view id);
     HttpResponse item(const ApiContext& context, std::string_view id, const std::string& feature);
 

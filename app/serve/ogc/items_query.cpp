@@ -1,9 +1,11 @@
 #include "app/serve/ogc/items_query.hpp"
 
 #include "app/cli/arguments.hpp"
-
-#include "app/database/segment_options.hpp"
 #include "app/database/time_border.hpp"
+#include "app/serve/filters/cql2_json.hpp"
+#include "app/serve/filters/cql2_text.hpp"
+#include "app/serve/filters/feature_filter.hpp"
+#include "app/serve/ogc/api_context.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +13,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -63,7 +68,65 @@ GeoBox parse_bbox(const std::string& text, CoordinateReference crs) {
     const auto half = numbers.size() / 2;
     const auto low = geo_point_of(crs, numbers[0], numbers[1]);
     const auto top = geo_point_of(crs, numbers[half], numbers[half + 1]);
-    return box_of({low.lon_deg, low.lat_deg, top.lon_deg, top.lat_deg});
+    const auto is_on_globe = [](const GeoPoint& point) {
+        return std::abs(point.lat_deg) <= 90 && std::abs(point.lon_deg) <= 180;
+    };
+    if (!is_on_globe(low) || !is_on_globe(top) || low.lat_deg > top.lat_deg) {
+        throw UsageError{fmt::format("bbox is {}, expected west, south, east and north on the "
+                                     "globe; west > east crosses the antimeridian",
+                                     in_quotes(text))};
+    }
+    constexpr double least_deg = 1e-9; // 0.1 mm: a box without a width or height is a place, too
+    const double east_deg = low.lon_deg > top.lon_deg ? top.lon_deg + 360 : top.lon_deg;
+    return {low.lon_deg,
+            low.lat_deg,
+            std::max(east_deg, low.lon_deg + least_deg),
+            std::max(top.lat_deg, low.lat_deg + least_deg)};
+}
+
+/// Adds the condition of the parameters filter, filter-lang and filter-crs.
+void add_filter(const HttpRequest& request,
+                std::span<const FeatureColumn> columns,
+                ItemsQuery& query) {
+    const auto language = request.parameter("filter-lang").value_or("cql2-text");
+    const auto uri = request.parameter("filter-crs");
+    const auto crs = uri ? parse_uri("filter-crs", *uri) : CoordinateReference::crs84;
+    if (language != "cql2-text" && language != "cql2-json") {
+        throw UsageError{
+            fmt::format("filter-lang is {}, expected cql2-text or cql2-json", in_quotes(language))};
+    }
+    const auto text = request.parameter("filter");
+    if (!text) {
+        return;
+    }
+    try {
+        const auto expression =
+            language == "cql2-text" ? parse_cql2_text(*text) : parse_cql2_json(*text);
+        auto filter = feature_filter(expression, columns, crs);
+        query.tests.push_back(std::move(filter.test));
+        if (filter.box && !query.box) {
+            constexpr double margin_m = 1; // the filter itself decides
+            query.box = grown(*filter.box, margin_m);
+        }
+    } catch (const Cql2Error& error) {
+        throw UsageError{fmt::format("filter: {}", error.what())};
+    }
+}
+
+bool is_among(std::string_view name, std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+FeatureTest equality(const std::string& name,
+                     const std::string& value,
+                     std::span<const FeatureColumn> columns) {
+    const auto column = std::ranges::find(columns, name, &FeatureColumn::name);
+    if (column == columns.end()) {
+        throw UsageError{fmt::format("unknown parameter {}", in_quotes(name))};
+    }
+    return [&column = *column, value](const Feature& feature) {
+        return equals_text(column.type, column.value(feature.row), value);
+    };
 }
 
 std::string pair_text(std::string_view name, std::string_view value) {
@@ -112,8 +175,8 @@ ItemsQuery parse_items_query(const HttpRequest& request, std::span<const Feature
     const auto bbox_crs = request.parameter("bbox-crs");
     const auto box_reference =
         bbox_crs ? parse_uri("bbox-crs", *bbox_crs) : CoordinateReference::crs84;
+    expect_single(request);
     for (const auto& [name, value] : request.parameters) {
-        bool selects = true;
         if (name == "limit") {
             query.limit = std::min(parse_count(name, value, 1), max_limit);
             continue;
@@ -130,20 +193,14 @@ ItemsQuery parse_items_query(const HttpRequest& request, std::span<const Feature
             query.box = parse_bbox(value, box_reference);
         } else if (name == "datetime") {
             query.period = parse_datetime(value);
-        } else if (name == "crs" || name == "f") {
-            selects = false;
-        } else if (name != "bbox-crs") {
-            const auto column = std::ranges::find(columns, name, &FeatureColumn::name);
-            if (column == columns.end()) {
-                throw UsageError{fmt::format("unknown parameter {}", in_quotes(name))};
-            }
-            query.tests.emplace_back([&column = *column, value](const Feature& feature) {
-                return equals_text(column.type, column.value(feature.row), value);
-            });
+        } else if (!is_among(name,
+                             {"crs", "f", "bbox-crs", "filter", "filter-lang", "filter-crs"})) {
+            query.tests.push_back(equality(name, value, columns));
         }
         query.rest += name == "f" ? "" : pair_text(name, value);
-        query.selection += selects ? pair_text(name, value) : "";
+        query.selection += is_among(name, {"crs", "f"}) ? "" : pair_text(name, value);
     }
+    add_filter(request, columns, query);
     return query;
 }
 

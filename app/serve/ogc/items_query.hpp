@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/http/http_message.hpp"
-#include "app/serve/ogc/coordinate_reference.hpp"
-#include "app/serve/ogc/feature.hpp"
+#include "app/serve/features/coordinate_reference.hpp"
+#include "app/serve/features/feature.hpp"
 #include "storage/store/records/segment_filter.hpp"
 
 #include <cstddef>

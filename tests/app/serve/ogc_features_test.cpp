@@ -1,6 +1,7 @@
 // OGC API - Features over real sockets. Numbers in brackets are those of the abstract tests of OGC
 // 17-069r4 (annex A) and 18-058r1, which these follow.
 
+#include "app/http/http_message.hpp"
 #include "storage/exports/export.hpp"
 #include "support/http/served_store.hpp"
 #include "support/program/shell.hpp"
@@ -10,7 +11,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -191,6 +194,100 @@ TEST(OgcFeatures, TransformsCoordinates) { // 18-058r1 A.1 to A.6
         metres[0].get<double>(), degrees[0].get<double>() * 111319.4908, 0.02); // 7 decimals
     EXPECT_EQ(served.ask("/collections/segments/items?crs=EPSG:31256").status, 400);
     EXPECT_EQ(served.ask("/collections/segments/items?bbox=1,2,3,4&bbox-crs=x").status, 400);
+}
+
+TEST(OgcFeatures, SelectsByAFilter) { // 19-079r2 A.4 filter, A.5 features-filter
+    const Served served;
+    const auto all = served.page("/collections/segments/items?limit=10000").at("features");
+    const auto matched = [&](const std::string& filter, const std::string& more = "") {
+        return served
+            .page("/collections/segments/items?limit=3&filter=" + percent_encoded(filter) + more)
+            .at("numberMatched")
+            .get<std::size_t>();
+    };
+    const auto count_if = [&](const auto& test) {
+        return static_cast<std::size_t>(std::ranges::count_if(
+            all, [&](const json& feature) { return test(feature.at("properties")); }));
+    };
+    const double iri = all[7].at("properties").at("iri");
+    const auto above = count_if([&](const json& row) { return row.at("iri") > iri; });
+    ASSERT_GT(above, 0U);
+    EXPECT_EQ(matched(fmt::format("iri > {}", iri)), above);
+    EXPECT_EQ(matched(fmt::format(R"({{"op":">","args":[{{"property":"iri"}},{}]}})", iri),
+                      "&filter-lang=cql2-json"),
+              above);
+    EXPECT_EQ(matched(fmt::format("iri > {} AND direction = 'forward'", iri)),
+              matched(fmt::format("iri > {}", iri), "&direction=forward"));
+    EXPECT_EQ(matched("true"), all.size());
+    const auto at = all[0].at("geometry").at("coordinates")[0];
+    const double lon = at[0], lat = at[1];
+    const auto here = matched(fmt::format("S_INTERSECTS(geometry, POINT({} {}))", lon, lat));
+    EXPECT_GT(here, 0U);
+    EXPECT_LT(here, all.size());
+    EXPECT_EQ(matched(fmt::format("S_INTERSECTS(geometry, POINT({} {}))", lat, lon),
+                      "&filter-crs=http://www.opengis.net/def/crs/EPSG/0/4326"),
+              here);
+    const auto page = served.page("/collections/segments/items?limit=3&filter=iri%3E0");
+    EXPECT_EQ(ids_over_pages(served, page), exported_ids(served.file)); // links keep it
+}
+
+TEST(OgcFeatures, RefusesBadFilters) { // 19-079r2 A.4 filter-param, filter-lang-param
+    const Served served;
+    for (const auto* query : {"filter=rri%3E4",
+                              "filter=",
+                              "filter=iri",
+                              "filter=true&filter-lang=sql",
+                              "filter=true&filter-crs=EPSG:4326"}) {
+        const auto answer = served.ask(fmt::format("/collections/segments/items?{}", query));
+        EXPECT_EQ(answer.status, 400) << query;
+        EXPECT_EQ(answer.headers.at("content-type"), "application/problem+json");
+    }
+    EXPECT_EQ(served.ask("/collections/worst/items?filter=true").status, 200);
+    EXPECT_EQ(served.ask("/collections/events/items?filter=severity%20LIKE%20'%25'").status, 200);
+}
+
+TEST(OgcFeatures, ListsWhatFiltersMayUse) { // 19-079r2 A.2 queryables
+    const Served served;
+    for (const auto* id : {"segments", "worst", "events"}) {
+        const auto collection = served.page(fmt::format("/collections/{}", id));
+        const auto schema =
+            served.follow(link_to(collection, "http://www.opengis.net/def/rel/ogc/1.0/queryables"));
+        EXPECT_EQ(schema.at("type"), "object");
+        EXPECT_EQ(schema.at("properties").at("geometry").at("x-ogc-role"), "primary-geometry");
+        ASSERT_GT(schema.at("properties").size(), 5U);
+        for (const auto& [name, property] : schema.at("properties").items()) {
+            const auto filter = percent_encoded("\"" + name + "\" IS NULL OR true");
+            EXPECT_EQ(served.ask(fmt::format("/collections/{}/items?filter={}", id, filter)).status,
+                      200)
+                << name;
+        }
+    }
+    EXPECT_EQ(served.ask("/collections/none/queryables").status, 404);
+}
+
+TEST(OgcFeatures, TakesBoxesWithoutWidthOrHeight) {
+    const Served served;
+    const auto at = served.page("/collections/segments/items?limit=1")
+                        .at("features")[0]
+                        .at("geometry")
+                        .at("coordinates")[0];
+    EXPECT_GT(served
+                  .page(fmt::format("/collections/segments/items?bbox={0},{1},{0},{1}",
+                                    at[0].get<double>(),
+                                    at[1].get<double>()))
+                  .at("numberMatched"),
+              0);
+}
+
+TEST(OgcFeatures, NamesTheParameterThatItRefuses) {
+    const Served served;
+    EXPECT_THAT(served.ask("/collections/segments/items?bbox=1,4,3,2").body,
+                AllOf(HasSubstr("bbox is '1,4,3,2'"), Not(HasSubstr("--bbox"))));
+    for (const auto* query : {"limit=1&limit=2", "bbox=1,2,3,4&bbox=1,2,3,4", "iri=1&iri=1"}) {
+        const auto answer = served.ask(fmt::format("/collections/segments/items?{}", query));
+        EXPECT_EQ(answer.status, 400) << query;
+        EXPECT_THAT(answer.body, HasSubstr("is given twice")) << query;
+    }
 }
 
 TEST(OgcFeatures, RefusesBadParameters) { // core/query-param-unknown, query-param-invalid

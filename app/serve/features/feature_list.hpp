@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/serve/ogc/feature.hpp"
+#include "app/serve/features/feature.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include "app/serve/ogc/coordinate_reference.hpp"
+#include "app/serve/features/coordinate_reference.hpp"
 
 #include "storage/exports/export.hpp"
 

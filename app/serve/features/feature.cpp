@@ -1,4 +1,4 @@
-#include "app/serve/ogc/feature.hpp"
+#include "app/serve/features/feature.hpp"
 
 #include "storage/text/text.hpp"
 

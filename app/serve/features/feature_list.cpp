@@ -1,4 +1,4 @@
-#include "app/serve/ogc/feature_list.hpp"
+#include "app/serve/features/feature_list.hpp"
 
 #include "app/query/worst_sections_output.hpp"
 #include "mapping/analysis/worst_sections.hpp"

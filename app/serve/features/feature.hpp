@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/serve/ogc/coordinate_reference.hpp"
+#include "app/serve/features/coordinate_reference.hpp"
 #include "estimator/common/geo.hpp"
 #include "storage/text/columns.hpp"
 
