@@ -66,9 +66,7 @@ TEST(FolderChanges, AreNoticedInAFolderThatTookThePlaceOfTheWatchedOne) {
 TEST(FolderChanges, AreNoticedAgainAfterTheirQueueOverflowed) {
     std::size_t limit = 0;
     std::ifstream{"/proc/sys/fs/inotify/max_queued_events"} >> limit;
-    if (limit == 0 || limit > 100'000) {
-        GTEST_SKIP() << "the queue holds " << limit << " changes";
-    }
+    ASSERT_GT(limit, 0U);
     const auto folder = fresh_folder();
     write_file(folder / "a", "x");
     write_file(folder / "b", "x");

@@ -1,17 +1,26 @@
 #include "golden.hpp"
 
+#include "estimator/common/error.hpp"
 #include "render/gl/gl_context.hpp"
+#include "render/gl/gl_library.hpp"
 
 #include <GL/gl.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <png.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 namespace macadam::testing {
+namespace {
+
+/// Between OSMesa and EGL, which may be of different versions of Mesa.
+constexpr int max_library_levels = 2;
+
+} // namespace
 
 std::string mesa() {
     std::vector<std::uint8_t> rgba(16 * 16 * 4);
@@ -41,11 +50,24 @@ void leave(const std::string& name, const Image& image) {
     }
 }
 
-Image drawn_with(const char* library, const std::function<Image()>& draw) {
-    setenv("MACADAM_OPENGL", library, 1);
-    auto image = draw();
-    unsetenv("MACADAM_OPENGL");
-    return image;
+void expect_same_by_both_libraries(const std::string& name, const std::function<Image()>& draw) {
+    const auto drawn_with = [&](const char* library) {
+        setenv("MACADAM_OPENGL", library, 1);
+        const auto unset = [](const char* variable) { unsetenv(variable); };
+        const std::unique_ptr<const char, decltype(unset)> until{"MACADAM_OPENGL", unset};
+        return draw();
+    };
+    const auto by_egl = drawn_with("egl");
+    if (has_osmesa()) {
+        EXPECT_LE(max_difference(drawn_with("osmesa"), by_egl), max_library_levels) << name;
+        return;
+    }
+    try {
+        drawn_with("osmesa");
+        ADD_FAILURE() << name << ": drawn by an OSMesa that cannot be opened";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("libOSMesa.so.8"));
+    }
 }
 
 int max_difference(const Image& a, const Image& b) {

@@ -13,9 +13,6 @@ namespace macadam::testing {
 
 inline constexpr const char* golden_mesa = "Mesa 22.3.6"; // Debian 12's, which drew them
 
-/// Between OSMesa and EGL, which may be of different versions of Mesa.
-inline constexpr int max_library_levels = 2;
-
 /// What Mesa says of its version.
 std::string mesa();
 
@@ -26,8 +23,9 @@ Image golden(const std::string& name);
 /// looked at, and kept if it is better.
 void leave(const std::string& name, const Image& image);
 
-/// Draws with one OpenGL library: "osmesa" or "egl".
-Image drawn_with(const char* library, const std::function<Image()>& draw);
+/// Expects the same picture from OSMesa and from EGL, or, where Mesa has no OSMesa (from
+/// version 25.1 on), that a request for it is refused by its name.
+void expect_same_by_both_libraries(const std::string& name, const std::function<Image()>& draw);
 
 /// In levels of 255; 256 of pictures of different sizes.
 int max_difference(const Image& a, const Image& b);

@@ -1,5 +1,4 @@
 #include "golden.hpp"
-#include "render/gl/gl_library.hpp"
 #include "render/map/map_plan.hpp"
 
 #include <ft2build.h>
@@ -162,14 +161,8 @@ TEST(MapGolden, WholeMapsAreThoseThatWereFoundGood) {
 }
 
 TEST(MapGolden, OsmesaAndEglDrawTheSameMaps) {
-    if (!has_osmesa()) {
-        GTEST_SKIP() << "this Mesa has no OSMesa";
-    }
     for (const auto& of : cases) {
-        const auto draw = [&] { return drawn(of); };
-        const auto by_egl = drawn_with("egl", draw);
-        EXPECT_LE(max_difference(drawn_with("osmesa", draw), by_egl), max_library_levels)
-            << of.name;
+        expect_same_by_both_libraries(of.name, [&] { return drawn(of); });
     }
 }
 

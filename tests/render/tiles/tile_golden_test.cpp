@@ -1,4 +1,3 @@
-#include "render/gl/gl_library.hpp"
 #include "render/map/golden.hpp"
 #include "render/tiles/tile_painter.hpp"
 #include "tile_scene.hpp"
@@ -60,14 +59,8 @@ TEST(TileGolden, TilesAreThoseThatWereFoundGood) {
 }
 
 TEST(TileGolden, OsmesaAndEglDrawTheSameTiles) {
-    if (!has_osmesa()) {
-        GTEST_SKIP() << "this Mesa has no OSMesa";
-    }
     for (const auto& scene : scenes) {
-        const auto draw = [&] { return drawn(scene); };
-        const auto by_egl = drawn_with("egl", draw);
-        EXPECT_LE(max_difference(drawn_with("osmesa", draw), by_egl), max_library_levels)
-            << scene.name;
+        expect_same_by_both_libraries(scene.name, [&] { return drawn(scene); });
     }
 }
 
