@@ -3,6 +3,7 @@
 #include "mapping/network/build_network.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/files/placed_raster.hpp"
+#include "support/program/picture_program.hpp"
 #include "support/program/program.hpp"
 #include "support/program/shell.hpp"
 #include "support/roads/road_art.hpp"
@@ -23,24 +24,8 @@ using ::testing::Not;
 
 const std::vector<int> ground{0xf4, 0xf4, 0xf2};
 
-class BaseMapProgram : public ::testing::Test {
+class BaseMapProgram : public PictureProgram {
 protected:
-    void SetUp() override {
-        folder_ = fresh_folder();
-        store_ = (folder_ / "roads.gpkg").string();
-        auto store = new_store(store_);
-        import_trips(store, 6);
-        store.visit({}, [&](const SegmentRecord& record) { measured_.push_back(record); });
-        fs::create_directory(folder_ / "out");
-    }
-
-    std::string out(const std::string& name) const { return (folder_ / "out" / name).string(); }
-
-    macadam::testing::Run render(std::vector<std::string> words, std::size_t max_bytes = 0) const {
-        words.insert(words.begin(), {"render", store_});
-        return run_macadam(words, max_bytes);
-    }
-
     macadam::testing::Run done(const std::vector<std::string>& words) const {
         auto run = render(words);
         EXPECT_EQ(run.exit_status, 0) << run.err;
@@ -84,9 +69,6 @@ protected:
     }
 
     static constexpr double raster_deg = 2e-4;
-    fs::path folder_;
-    std::string store_;
-    std::vector<SegmentRecord> measured_;
 };
 
 } // namespace

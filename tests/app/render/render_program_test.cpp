@@ -2,6 +2,7 @@
 
 #include "mapping/network/build_network.hpp"
 #include "storage/store/road_store.hpp"
+#include "support/program/picture_program.hpp"
 #include "support/program/program.hpp"
 #include "support/program/shell.hpp"
 #include "support/roads/road_art.hpp"
@@ -21,24 +22,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-class RenderProgram : public ::testing::Test {
+class RenderProgram : public PictureProgram {
 protected:
-    void SetUp() override {
-        folder_ = fresh_folder();
-        store_ = (folder_ / "roads.gpkg").string();
-        auto store = new_store(store_);
-        import_trips(store, 6);
-        store.visit({}, [&](const SegmentRecord& record) { measured_.push_back(record); });
-        fs::create_directory(folder_ / "out");
-    }
-
-    std::string out(const std::string& name) const { return (folder_ / "out" / name).string(); }
-
-    macadam::testing::Run render(std::vector<std::string> words, std::size_t max_bytes = 0) const {
-        words.insert(words.begin(), {"render", store_});
-        return run_macadam(words, max_bytes);
-    }
-
     void expect_done(const std::vector<std::string>& words) const {
         const auto run = render(words);
         EXPECT_EQ(run.exit_status, 0) << run.err;
@@ -64,10 +49,6 @@ protected:
         }
         return bands;
     }
-
-    fs::path folder_;
-    std::string store_;
-    std::vector<SegmentRecord> measured_;
 };
 
 const std::vector<int> ground{0xf4, 0xf4, 0xf2};
