@@ -1,8 +1,8 @@
 #include "app/pipeline/trip_preparation.hpp"
 
+#include "estimator/clocks/gnss_latency.hpp"
 #include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
-#include "estimator/motion/gnss_latency.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/positions/joined_trip.hpp"

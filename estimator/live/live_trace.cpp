@@ -1,6 +1,6 @@
 #include "estimator/live/live_trace.hpp"
 
-#include "estimator/motion/gnss_latency.hpp"
+#include "estimator/clocks/gnss_latency.hpp"
 #include "estimator/roughness/roughness_mean.hpp"
 
 #include <algorithm>

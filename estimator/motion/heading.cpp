@@ -2,6 +2,7 @@
 
 #include "estimator/common/angle.hpp"
 #include "estimator/motion/gnss_track.hpp"
+#include "estimator/motion/gyro_bias.hpp"
 #include "estimator/motion/mounting.hpp"
 
 #include <algorithm>
@@ -21,12 +22,6 @@ constexpr double slight_axis = 0.2;       // share of the vertical: such an axis
 constexpr double noise_rad_per_sqrt_s = 0.002; // angle random walk, with mount vibration
 constexpr double scale_sd = 0.01;              // of the gyro, and of hills: cos 6 degrees
 constexpr double min_sd_rad = 0.003;           // from time stamps that differ from the sensor's
-
-constexpr double prior_bias_sd_radps = 0.02;        // 1 degree per second: not calibrated
-constexpr double bias_walk_radps_per_sqrt_s = 5e-5; // with temperature: 0.003 rad/s in an hour
-constexpr double block_s = 10;                      // the bias is constant within a block
-constexpr double longest_drift_s = 3600;
-constexpr double far_off = 3; // sds; readings farther off are weighted down
 
 constexpr double standing_mps = 0.1;
 constexpr double min_stand_s = 2;
@@ -150,13 +145,6 @@ bool was_measured(const Heading& heading, double from_s, double to_s) {
 
 // --------------------------------------------------------------------------------------- bias
 
-/// Observation of the bias at a time.
-struct Reading {
-    double t_s;
-    double radps;
-    double variance;
-};
-
 /// Skips the middle of silences, where there are no values.
 class SilenceSkipper {
 public:
@@ -182,10 +170,10 @@ private:
     std::vector<TimeSpan>::const_iterator end_;
 };
 
-std::vector<Reading> standing_readings(const Heading& heading, const Odometer& odometer) {
+std::vector<BiasReading> standing_readings(const Heading& heading, const Odometer& odometer) {
     constexpr double left_m = 1; // travel over a silence that ends a stop
     SilenceSkipper skipper{heading};
-    std::vector<Reading> readings;
+    std::vector<BiasReading> readings;
     double from_s = unknown;
     const auto close = [&](double to_s) {
         const double took_s = to_s - from_s;
@@ -264,9 +252,9 @@ double blur_rad(const Heading& heading, double t_s, const TripMeta& meta) {
     return rate_radps * (meta.gnss_latency_stated ? stated_latency_sd_s : unstated_latency_sd_s);
 }
 
-std::vector<Reading>
+std::vector<BiasReading>
 driving_readings(const Heading& heading, const std::vector<Course>& courses, const TripMeta& meta) {
-    std::vector<Reading> readings;
+    std::vector<BiasReading> readings;
     for (std::size_t from = 0, to = 0; to < courses.size(); ++to) {
         const auto& a = courses[from];
         const auto& b = courses[to];
@@ -287,110 +275,6 @@ driving_readings(const Heading& heading, const std::vector<Course>& courses, con
                             sd_rad * sd_rad / (took_s * took_s)});
     }
     return readings;
-}
-
-struct Belief {
-    double mean;
-    double variance;
-};
-
-Belief updated(const Belief& belief, const Reading& reading) {
-    const double off = reading.radps - belief.mean;
-    const double expected = belief.variance + reading.variance;
-    const double excess = off * off / (far_off * far_off * expected);
-    const double variance = reading.variance + std::max(0.0, excess - 1) * expected;
-    const double gain = belief.variance / (belief.variance + variance);
-    return {belief.mean + gain * off, (1 - gain) * belief.variance};
-}
-
-/// Estimate of the bias in a block; the first block begins at start_s.
-struct Block {
-    std::int64_t number;
-    Belief bias;
-};
-
-std::int64_t block_of(const Heading& heading, std::int64_t step) {
-    return step / std::llround(block_s / heading.step_s);
-}
-
-/// Returns the blocks that contain values.
-std::vector<Block> blocks_of(const Heading& heading) {
-    std::vector<Block> blocks;
-    for (auto run = heading.runs.begin(); run != heading.runs.end(); ++run) {
-        const auto size = static_cast<std::int64_t>(size_of(heading, run));
-        const auto last = block_of(heading, run->first_step + size - 1);
-        auto number = block_of(heading, run->first_step);
-        for (number += !blocks.empty() && blocks.back().number == number ? 1 : 0; number <= last;
-             ++number) {
-            blocks.push_back({number, {}});
-        }
-    }
-    return blocks;
-}
-
-/// Smooths the bias over the blocks; it continues its random walk over silences.
-std::vector<Block> smoothed_bias(const Heading& heading, std::vector<Reading> readings) {
-    std::ranges::sort(readings, {}, &Reading::t_s);
-    constexpr double walk_a_block =
-        bias_walk_radps_per_sqrt_s * bias_walk_radps_per_sqrt_s * block_s;
-    auto blocks = blocks_of(heading);
-    const auto walk_to = [&](std::size_t i) {
-        return walk_a_block * static_cast<double>(blocks[i].number - blocks[i - 1].number);
-    };
-    Belief belief{0, prior_bias_sd_radps * prior_bias_sd_radps};
-    auto next = readings.begin();
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        belief.variance += i > 0 ? walk_to(i) : 0;
-        const double until_s =
-            heading.start_s + static_cast<double>(blocks[i].number + 1) * block_s;
-        for (; next != readings.end() && next->t_s < until_s; ++next) {
-            belief = updated(belief, *next);
-        }
-        blocks[i].bias = belief;
-    }
-    for (auto i = blocks.size() - 1; i-- > 0;) {
-        auto& earlier = blocks[i].bias;
-        const auto& later = blocks[i + 1].bias;
-        const double walk = walk_to(i + 1);
-        const double gain = earlier.variance / (earlier.variance + walk);
-        earlier.mean += gain * (later.mean - earlier.mean);
-        earlier.variance += gain * gain * (later.variance - earlier.variance - walk);
-    }
-    return blocks;
-}
-
-/// Subtracts the bias. Between two runs the mean of the biases at their ends applies; over a long
-/// silence it is not subtracted, since the rounding of floats would then hide turns.
-Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
-    double bias_rad = 0;
-    double variance = 0;
-    auto block = blocks.begin();
-    auto last = block->bias;
-    for (auto run = heading.runs.cbegin(); run != heading.runs.cend(); ++run) {
-        const auto size = size_of(heading, run);
-        for (std::size_t i = 0; i < size; ++i) {
-            const auto number = block_of(heading, run->first_step + static_cast<std::int64_t>(i));
-            while (block->number < number) {
-                ++block;
-            }
-            const auto& belief = block->bias;
-            if (i == 0 && run != heading.runs.cbegin()) {
-                const auto before = run - 1;
-                const auto steps = static_cast<double>(run->first_step - before->first_step) -
-                                   static_cast<double>(size_of(heading, before)); // without a value
-                const double drift_s = heading.step_s * steps;
-                bias_rad += drift_s < longest_drift_s ? (last.mean + belief.mean) / 2 * drift_s : 0;
-                variance += (last.variance + belief.variance) / 2 * steps;
-            }
-            const auto at = run->first + i;
-            bias_rad += at > 0 ? belief.mean * heading.step_s : 0;
-            variance += belief.variance;
-            heading.turned_rad[at] -= static_cast<float>(bias_rad);
-            last = belief;
-        }
-    }
-    heading.bias_sd_radps = std::sqrt(variance / static_cast<double>(end_step(heading) + 1));
-    return heading;
 }
 
 /// Returns true if the gyro contradicts most courses.
@@ -470,8 +354,7 @@ Heading make_heading(const TripLog& trip, const Odometer& odometer, const Mounti
     const auto courses = courses_of(trip);
     auto readings = standing_readings(heading, odometer);
     std::ranges::copy(driving_readings(heading, courses, trip.meta), std::back_inserter(readings));
-    const auto blocks = smoothed_bias(heading, std::move(readings));
-    heading = without_bias(std::move(heading), blocks);
+    heading = without_gyro_bias(std::move(heading), std::move(readings));
     return is_contradicted(heading, courses, trip.meta) ? Heading{} : heading;
 }
 

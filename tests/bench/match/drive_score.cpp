@@ -1,6 +1,6 @@
 #include "drive_score.hpp"
 
-#include "estimator/motion/gnss_latency.hpp"
+#include "estimator/clocks/gnss_latency.hpp"
 #include "estimator/motion/make_odometer.hpp"
 #include "estimator/motion/mounting.hpp"
 

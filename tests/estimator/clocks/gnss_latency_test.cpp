@@ -1,4 +1,4 @@
-#include "estimator/motion/gnss_latency.hpp"
+#include "estimator/clocks/gnss_latency.hpp"
 
 #include "estimator/motion/make_odometer.hpp"
 #include "estimator/motion/mounting.hpp"

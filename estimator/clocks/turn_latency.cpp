@@ -1,4 +1,4 @@
-#include "estimator/motion/turn_latency.hpp"
+#include "estimator/clocks/turn_latency.hpp"
 
 #include "estimator/common/angle.hpp"
 #include "estimator/common/statistics.hpp"

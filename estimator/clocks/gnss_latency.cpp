@@ -1,9 +1,9 @@
-#include "estimator/motion/gnss_latency.hpp"
+#include "estimator/clocks/gnss_latency.hpp"
 
+#include "estimator/clocks/turn_latency.hpp"
 #include "estimator/common/angle.hpp"
 #include "estimator/common/statistics.hpp"
 #include "estimator/motion/gnss_track.hpp"
-#include "estimator/motion/turn_latency.hpp"
 
 #include <algorithm>
 #include <cmath>
