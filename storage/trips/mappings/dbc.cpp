@@ -5,13 +5,13 @@
 #include "storage/tables/text_lines.hpp"
 #include "storage/text/spelling.hpp"
 #include "storage/text/text.hpp"
+#include "storage/trips/mappings/dbc_tokens.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <utility>
 
 namespace macadam {
@@ -23,88 +23,8 @@ constexpr std::uint32_t extended_flag = 0x80000000U;
 constexpr std::uint32_t extended_mask = 0x1FFFFFFFU;
 constexpr int max_nesting = 8; // of multiplexors
 
-/// Takes tokens off a statement: words and numbers, or single signs.
-class Tokens {
-public:
-    Tokens(std::string_view rest, std::string where) : rest_{rest}, where_{std::move(where)} {}
-
-    std::string_view word() {
-        rest_ = trimmed(rest_);
-        const auto word = rest_.substr(0, rest_.find_first_of(" \t:|@(),[];\""));
-        rest_.remove_prefix(word.size());
-        return word;
-    }
-
-    std::string name(std::string_view expected) {
-        const auto found = word();
-        if (found.empty()) {
-            refuse(expected);
-        }
-        return std::string{found};
-    }
-
-    bool at_end() const { return trimmed(rest_).empty(); }
-
-    bool has(char sign) {
-        rest_ = trimmed(rest_);
-        if (!rest_.starts_with(sign)) {
-            return false;
-        }
-        rest_.remove_prefix(1);
-        return true;
-    }
-
-    void expect(char sign) {
-        if (!has(sign)) {
-            refuse(fmt::format("'{}'", sign));
-        }
-    }
-
-    template <typename Number>
-    Number whole(std::uint64_t low, std::uint64_t high) {
-        const auto text = word();
-        std::uint64_t number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (text.empty() || error != std::errc{} || end != text.data() + text.size() ||
-            number < low || number > high) {
-            rest_ = {text.data(),
-                     static_cast<std::size_t>(rest_.data() + rest_.size() - text.data())};
-            refuse(fmt::format("a whole number from {} to {}", low, high));
-        }
-        return static_cast<Number>(number);
-    }
-
-    double number() {
-        const auto before = rest_;
-        const auto number = parse_number(word());
-        if (!number || !std::isfinite(*number)) {
-            rest_ = before;
-            refuse("a number");
-        }
-        return *number;
-    }
-
-    std::string quoted() {
-        expect('"');
-        const auto text = rest_.substr(0, rest_.find('"'));
-        rest_.remove_prefix(std::min(rest_.size(), text.size() + 1));
-        return std::string{text};
-    }
-
-    [[noreturn]] void refuse(std::string_view expected) const {
-        throw InputError{fmt::format("{}: {}, expected {}",
-                                     where_,
-                                     at_end() ? "the statement ends" : in_quotes(trimmed(rest_)),
-                                     expected)};
-    }
-
-private:
-    std::string_view rest_;
-    std::string where_;
-};
-
 /// Takes "m3", "M" or "m3M" behind the name of a signal.
-void take_multiplexing(std::string_view word, DbcSignal& signal, const Tokens& tokens) {
+void take_multiplexing(std::string_view word, DbcSignal& signal, const DbcTokens& tokens) {
     if (word.ends_with('M')) {
         signal.is_multiplexor = true;
         word.remove_suffix(1);
@@ -120,14 +40,14 @@ void take_multiplexing(std::string_view word, DbcSignal& signal, const Tokens& t
     signal.at = {{value, value}};
 }
 
-DbcSignal signal_of(Tokens& tokens) {
+DbcSignal signal_of(DbcTokens& tokens) {
     DbcSignal signal;
     signal.name = tokens.name("the name of a signal");
     take_multiplexing(tokens.word(), signal, tokens);
     tokens.expect(':');
-    signal.start_bit = tokens.whole<std::uint16_t>(0, frame_bits - 1);
+    signal.start_bit = static_cast<std::uint16_t>(tokens.whole(0, frame_bits - 1));
     tokens.expect('|');
-    signal.bit_count = tokens.whole<std::uint16_t>(1, 64);
+    signal.bit_count = static_cast<std::uint16_t>(tokens.whole(1, 64));
     tokens.expect('@');
     const auto order = tokens.word();
     if (order.size() != 2 || (order[0] != '0' && order[0] != '1') ||
@@ -151,8 +71,8 @@ DbcSignal signal_of(Tokens& tokens) {
     return signal;
 }
 
-std::uint32_t id_of(Tokens& tokens) {
-    return tokens.whole<std::uint32_t>(0, 0xFFFFFFFFU);
+std::uint32_t id_of(DbcTokens& tokens) {
+    return static_cast<std::uint32_t>(tokens.whole(0, 0xFFFFFFFFU));
 }
 
 /// Reads the statements of a DBC file.
@@ -190,7 +110,7 @@ private:
     }
 
     void statement(std::string_view line) {
-        Tokens tokens{line, lines_.where()};
+        DbcTokens tokens{line, lines_.where()};
         const auto keyword = tokens.word();
         if (tokens.at_end()) { // of the list of keywords at its top
             return;
@@ -208,7 +128,7 @@ private:
         } else if (keyword == "SIG_VALTYPE_") {
             auto* const signal = named_signal(tokens);
             tokens.has(':');
-            const auto kind = tokens.whole<int>(0, 2);
+            const auto kind = tokens.whole(0, 2);
             if (signal != nullptr) {
                 signal->kind = static_cast<DbcSignal::Kind>(kind);
             }
@@ -217,7 +137,7 @@ private:
         }
     }
 
-    void begin_message(Tokens& tokens) {
+    void begin_message(DbcTokens& tokens) {
         const auto id = id_of(tokens);
         const bool is_extended = (id & extended_flag) != 0;
         DbcMessage message{.id = is_extended ? id & extended_mask : id,
@@ -227,7 +147,7 @@ private:
         dbc_.messages.push_back(std::move(message));
     }
 
-    DbcSignal* named_signal(Tokens& tokens) {
+    DbcSignal* named_signal(DbcTokens& tokens) {
         const auto id = id_of(tokens);
         const auto name = tokens.name("the name of a signal");
         const bool is_extended = (id & extended_flag) != 0;
@@ -242,7 +162,7 @@ private:
     }
 
     /// SG_MUL_VAL_ id signal multiplexor 1-3, 7-7;
-    void take_ranges(Tokens& tokens) {
+    void take_ranges(DbcTokens& tokens) {
         auto* const signal = named_signal(tokens);
         const auto multiplexor = tokens.name("the name of a multiplexor");
         std::vector<std::pair<std::uint64_t, std::uint64_t>> at;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cstring>
 #include <utility>
 
@@ -18,7 +17,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "rawlogs are little-endian");
 
-constexpr std::size_t longest_name = 120; // limit of MRPT's reader
 constexpr std::size_t longest_text = 16 << 20;
 constexpr std::size_t max_items = 1 << 20;
 constexpr std::size_t imu_channels = 31; // of MRPT 2: enumeration TIMUDataIndex
@@ -32,9 +30,9 @@ struct MoreNeeded {};
 }
 
 /// Steps over the fields of an object.
-class Walk {
+class ObjectCursor {
 public:
-    explicit Walk(std::string_view bytes) : bytes_{bytes} {}
+    explicit ObjectCursor(std::string_view bytes) : bytes_{bytes} {}
 
     std::size_t at() const { return at_; }
 
@@ -156,46 +154,47 @@ private:
 
 constexpr std::size_t time_size = 8;
 
-void walk_imu(Walk& walk, const RawlogHead& head) {
-    walk.pose_3d();
+void skip_imu(ObjectCursor& cursor, const RawlogHead& head) {
+    cursor.pose_3d();
     if (head.version == 4) {
-        walk.flags(imu_channels);
-        walk.skip(time_size + imu_channels * sizeof(double));
+        cursor.flags(imu_channels);
+        cursor.skip(time_size + imu_channels * sizeof(double));
     } else if (head.version < 4) {
-        walk.flags(walk.count(imu_channels));
-        walk.skip(time_size);
-        walk.skip(walk.count(imu_channels) * (head.version == 0 ? sizeof(float) : sizeof(double)));
+        cursor.flags(cursor.count(imu_channels));
+        cursor.skip(time_size);
+        cursor.skip(cursor.count(imu_channels) *
+                    (head.version == 0 ? sizeof(float) : sizeof(double)));
     } else {
         refuse(head, "a version up to 4");
     }
-    walk.text();
+    cursor.text();
 }
 
-void walk_odometry(Walk& walk, const RawlogHead& head) {
+void skip_odometry(ObjectCursor& cursor, const RawlogHead& head) {
     if (head.version > 2) {
         refuse(head, "a version up to 2");
     }
-    walk.pose_2d();
-    walk.text();
-    walk.skip(time_size);
+    cursor.pose_2d();
+    cursor.text();
+    cursor.skip(time_size);
     if (head.version == 0) {
         return;
     }
     const bool always = head.version == 1;
-    if (walk.flag() || always) {
-        walk.skip(2 * sizeof(std::int32_t));
+    if (cursor.flag() || always) {
+        cursor.skip(2 * sizeof(std::int32_t));
     }
-    if (walk.flag() || always) {
-        walk.skip(always ? 2 * sizeof(float) : 3 * sizeof(double));
+    if (cursor.flag() || always) {
+        cursor.skip(always ? 2 * sizeof(float) : 3 * sizeof(double));
     }
 }
 
-void walk_comment(Walk& walk, const RawlogHead& head) {
+void skip_comment(ObjectCursor& cursor, const RawlogHead& head) {
     if (head.version != 0) {
         refuse(head, "version 0");
     }
-    walk.text();
-    walk.skip(time_size);
+    cursor.text();
+    cursor.skip(time_size);
 }
 
 /// Messages in the form of a length and a block: GGA, GLL, GSA, RMC, VTG and ZDA of NMEA 0183.
@@ -205,39 +204,39 @@ bool is_block(std::uint32_t message) {
 }
 
 /// \returns whether every message was recognised.
-bool walk_gps(Walk& walk, const RawlogHead& head) {
+bool skip_gps(ObjectCursor& cursor, const RawlogHead& head) {
     constexpr std::size_t max_messages = 1000; // one of each type, and there are fewer types
     constexpr std::size_t max_message_bytes = 1000;
-    walk.skip(2 * time_size);
-    walk.text();
-    walk.pose_3d();
+    cursor.skip(2 * time_size);
+    cursor.text();
+    cursor.pose_3d();
     if (head.version == 11) {
-        walk.flag();
+        cursor.flag();
     } else if (head.version != 10) {
         refuse(head, "a version from 3 to 11");
     }
-    for (auto messages = walk.count(max_messages); messages > 0; --messages) {
-        if (!is_block(walk.number())) {
+    for (auto messages = cursor.count(max_messages); messages > 0; --messages) {
+        if (!is_block(cursor.number())) {
             return false;
         }
-        walk.skip(walk.count(max_message_bytes));
+        cursor.skip(cursor.count(max_message_bytes));
     }
     return true;
 }
 
-void walk_topcon_position(Walk& walk, int version) {
-    walk.skip(5 * sizeof(double) + sizeof(float) + 5);
+void skip_topcon_position(ObjectCursor& cursor, int version) {
+    cursor.skip(5 * sizeof(double) + sizeof(float) + 5);
     if (version < 6) {
         return;
     }
-    walk.flag();
-    walk.skip(6 * sizeof(double));
-    walk.flag();
-    walk.matrix();
-    walk.flag();
-    walk.matrix();
-    walk.flag();
-    walk.skip(version >= 8 ? 3 : 2);
+    cursor.flag();
+    cursor.skip(6 * sizeof(double));
+    cursor.flag();
+    cursor.matrix();
+    cursor.flag();
+    cursor.matrix();
+    cursor.flag();
+    cursor.skip(version >= 8 ? 3 : 2);
 }
 
 bool is_old_gps(const RawlogHead& head) {
@@ -246,56 +245,56 @@ bool is_old_gps(const RawlogHead& head) {
 
 /// Steps over the NMEA 0183 fields as MRPT wrote them before 1.4, including the position of the
 /// receiver.
-void walk_old_nmea(Walk& walk, int version) {
+void skip_old_nmea(ObjectCursor& cursor, int version) {
     constexpr std::size_t clock = 2 + sizeof(double);
-    walk.skip(time_size);
-    if (walk.flag()) { // GGA
-        walk.skip(clock + 2 * sizeof(double) + 1 + sizeof(double));
-        walk.skip(version >= 9 ? 3 * sizeof(double) : 0);
-        walk.skip(sizeof(std::uint32_t));
-        walk.flag();
-        walk.skip(sizeof(float));
+    cursor.skip(time_size);
+    if (cursor.flag()) { // GGA
+        cursor.skip(clock + 2 * sizeof(double) + 1 + sizeof(double));
+        cursor.skip(version >= 9 ? 3 * sizeof(double) : 0);
+        cursor.skip(sizeof(std::uint32_t));
+        cursor.flag();
+        cursor.skip(sizeof(float));
     }
-    if (walk.flag()) { // RMC
-        walk.skip(clock + 1 + 4 * sizeof(double));
+    if (cursor.flag()) { // RMC
+        cursor.skip(clock + 1 + 4 * sizeof(double));
     }
-    walk.text();
+    cursor.text();
     if (version >= 4) {
-        walk.pose_3d();
+        cursor.pose_3d();
     }
 }
 
 /// Steps over the additional fields of Topcon receivers.
-void walk_old_topcon(Walk& walk, int version) {
-    if (version >= 5 && walk.flag()) {
-        walk_topcon_position(walk, version);
+void skip_old_topcon(ObjectCursor& cursor, int version) {
+    if (version >= 5 && cursor.flag()) {
+        skip_topcon_position(cursor, version);
     }
-    if (version >= 7 && walk.flag()) { // satellites in view
+    if (version >= 7 && cursor.flag()) { // satellites in view
         for (const std::size_t item : {1, 1, 2}) {
-            walk.skip(item * walk.count(max_items));
+            cursor.skip(item * cursor.count(max_items));
         }
     }
 }
 
 /// \returns whether the end of the object is known from its fields.
-bool walk_object(Walk& walk, const RawlogHead& head) {
+bool skip_object(ObjectCursor& cursor, const RawlogHead& head) {
     switch (head.kind) {
     case RawlogClass::imu:
-        walk_imu(walk, head);
+        skip_imu(cursor, head);
         return true;
     case RawlogClass::odometry:
-        walk_odometry(walk, head);
+        skip_odometry(cursor, head);
         return true;
     case RawlogClass::comment:
-        walk_comment(walk, head);
+        skip_comment(cursor, head);
         return true;
     case RawlogClass::gps:
         if (is_old_gps(head)) {
-            walk_old_nmea(walk, head.version);
-            walk_old_topcon(walk, head.version);
+            skip_old_nmea(cursor, head.version);
+            skip_old_topcon(cursor, head.version);
             return true;
         }
-        return walk_gps(walk, head);
+        return skip_gps(cursor, head);
     case RawlogClass::frame:
     case RawlogClass::other:
         break;
@@ -303,64 +302,17 @@ bool walk_object(Walk& walk, const RawlogHead& head) {
     return false;
 }
 
-RawlogClass class_named(std::string_view name) {
-    using Row = std::pair<std::string_view, RawlogClass>;
-    static constexpr std::array<Row, 5> table{{{"CObservationIMU", RawlogClass::imu},
-                                               {"CObservationGPS", RawlogClass::gps},
-                                               {"CObservationOdometry", RawlogClass::odometry},
-                                               {"CObservationComment", RawlogClass::comment},
-                                               {"CSensoryFrame", RawlogClass::frame}}};
-    const auto found = std::ranges::find(table, name, &Row::first);
-    return found == table.end() ? RawlogClass::other : found->second;
-}
-
-bool is_in_names(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ':' || c == '<' ||
-           c == '>' || c == ',';
-}
-
-/// Class name at the front of `bytes`, as far as available; `std::nullopt`: not a class name.
-std::optional<std::string_view> full_name_in(std::string_view bytes) {
-    constexpr unsigned char new_format = 0x80;
-    const auto first = static_cast<unsigned char>(bytes.front());
-    const std::size_t length = first & ~unsigned{new_format};
-    const auto name = bytes.substr(1, length);
-    const bool is_name = (first & new_format) != 0 && length > 0 && length <= longest_name &&
-                         std::ranges::all_of(name, is_in_names);
-    return is_name ? std::optional{name} : std::nullopt;
-}
-
 } // namespace
-
-std::optional<RawlogHead> rawlog_head(std::string_view bytes) {
-    if (bytes.empty()) {
-        return std::nullopt;
-    }
-    const auto full_name = full_name_in(bytes);
-    if (!full_name) {
-        throw InputError{
-            fmt::format("{}, expected an object of MRPT", in_quotes(bytes.substr(0, 20)))};
-    }
-    const std::size_t length = static_cast<unsigned char>(bytes.front()) & 0x7fU;
-    if (bytes.size() < length + 2) {
-        return std::nullopt;
-    }
-    const auto name = full_name->substr(full_name->rfind(':') + 1); // 0 if there is none
-    return RawlogHead{.kind = class_named(name),
-                      .name = std::string{name},
-                      .version = static_cast<unsigned char>(bytes[length + 1]),
-                      .size = length + 2};
-}
 
 std::optional<std::size_t> rawlog_size(const RawlogHead& head, std::string_view bytes) {
     try {
-        Walk walk{bytes};
-        walk.skip(head.size);
-        if (!walk_object(walk, head)) {
+        ObjectCursor cursor{bytes};
+        cursor.skip(head.size);
+        if (!skip_object(cursor, head)) {
             return 0;
         }
-        walk.end();
-        return walk.at();
+        cursor.end();
+        return cursor.at();
     } catch (const MoreNeeded&) {
         return std::nullopt;
     }
@@ -371,10 +323,10 @@ std::optional<std::string> without_topcon(std::string_view object) {
     if (!head || !is_old_gps(*head) || head->version < 5) {
         return std::nullopt;
     }
-    Walk walk{object};
-    walk.skip(head->size);
-    walk_old_nmea(walk, head->version);
-    std::string bytes{object.substr(0, walk.at())};
+    ObjectCursor cursor{object};
+    cursor.skip(head->size);
+    skip_old_nmea(cursor, head->version);
+    std::string bytes{object.substr(0, cursor.at())};
     bytes.append(head->version >= 7 ? 2 : 1, '\0'); // flags: no position, no satellites
     bytes += rawlog_end_flag;
     return bytes;
@@ -385,25 +337,13 @@ std::optional<RawlogFrame> rawlog_frame(const RawlogHead& head, std::string_view
         refuse(head, "version 2");
     }
     try {
-        Walk walk{bytes};
-        walk.skip(head.size);
-        const auto count = walk.count(max_items);
-        return RawlogFrame{.count = count, .size = walk.at()};
+        ObjectCursor cursor{bytes};
+        cursor.skip(head.size);
+        const auto count = cursor.count(max_items);
+        return RawlogFrame{.count = count, .size = cursor.at()};
     } catch (const MoreNeeded&) {
         return std::nullopt;
     }
-}
-
-std::optional<bool> begins_observation(std::string_view bytes) {
-    if (!bytes.empty() && !full_name_in(bytes)) {
-        return false; // no exception here: an image has many positions to test
-    }
-    const auto head = rawlog_head(bytes);
-    if (!head) {
-        return std::nullopt;
-    }
-    return head->name.starts_with("CObservation") || head->name == "CSensoryFrame" ||
-           head->name == "CActionCollection";
 }
 
 } // namespace macadam

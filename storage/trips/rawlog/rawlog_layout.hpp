@@ -1,7 +1,8 @@
 #pragma once
 
+#include "storage/trips/rawlog/rawlog_head.hpp"
+
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,31 +12,6 @@ namespace macadam {
 // Layout of objects in a rawlog. MRPT's own reader trusts every count and length, so the extent of
 // an object is validated here before MRPT sees it: a broken file cannot make it allocate more than
 // the file holds.
-
-enum class RawlogClass : std::uint8_t {
-    imu,      ///< CObservationIMU
-    gps,      ///< CObservationGPS
-    odometry, ///< CObservationOdometry
-    comment,  ///< CObservationComment
-    frame,    ///< CSensoryFrame, a container of observations
-    other,
-};
-
-/// Header of an object: the length of its class name with the highest bit set, the name, and a
-/// version.
-struct RawlogHead {
-    RawlogClass kind;
-    std::string name; ///< "CObservationIMU", without its namespace
-    int version;
-    std::size_t size; ///< in bytes
-};
-
-inline constexpr char rawlog_end_flag = '\x88'; // after every object
-
-/// Parses the header at the start of `bytes`; `std::nullopt`: more bytes are needed.
-///
-/// \throws InputError  if this is not the header of an object; the message has no position.
-std::optional<RawlogHead> rawlog_head(std::string_view bytes);
 
 /// Size of an object of a known class, including header and end flag; `std::nullopt`: more bytes
 /// are needed. 0: it holds unsupported receiver messages, so that its end cannot be determined from
@@ -55,9 +31,5 @@ struct RawlogFrame {
     std::size_t size;
 };
 std::optional<RawlogFrame> rawlog_frame(const RawlogHead& head, std::string_view bytes);
-
-/// Tests whether `bytes` begin like an object that may stand alone in a rawlog; `std::nullopt`:
-/// more bytes are needed.
-std::optional<bool> begins_observation(std::string_view bytes);
 
 } // namespace macadam
