@@ -148,7 +148,7 @@ void draw(GlRoadPainter& gl_painter,
         if ((road->looks & pass.looks) == 0) {
             continue;
         }
-        add_ribbon(quads, *road->polyline, pass);
+        append_stroke(quads, *road->polyline, pass);
         if (quads.size() >= enough) {
             flush();
         }

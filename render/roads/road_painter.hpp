@@ -39,8 +39,8 @@ public:
 
     /// Sets the sheet to paint.
     ///
-    /// \param strands  must outlive its painting
-    void begin(Sheet sheet, std::span<const Polyline> strands, const LineWidths& widths);
+    /// \param polylines  must outlive its painting
+    void begin(Sheet sheet, std::span<const Polyline> polylines, const LineWidths& widths);
 
     /// Paints some rows of the sheet, which must lie on it.
     ///
@@ -54,7 +54,7 @@ private:
 
 /// Paints all rows of the sheet.
 Image painted_roads(const Sheet& sheet,
-                    std::span<const Polyline> strands,
+                    std::span<const Polyline> polylines,
                     const LineWidths& widths,
                     const Palette& palette,
                     std::span<const std::uint32_t> class_colours);

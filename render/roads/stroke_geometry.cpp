@@ -209,13 +209,9 @@ seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) 
 
 } // namespace
 
-std::vector<StrokeQuad> stroke_polyline(const Polyline& polyline, const StrokePass& pass) {
-    std::vector<StrokeQuad> quads;
-    add_ribbon(quads, polyline, pass);
-    return quads;
-}
-
-void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& polyline, const StrokePass& pass) {
+void append_stroke(std::vector<StrokeQuad>& quads,
+                   const Polyline& polyline,
+                   const StrokePass& pass) {
     const double reach_px = pass.radius_px + fringe_px;
     Pieces pieces{polyline};
     const auto past = std::min(polyline.past, polyline.looks.size());

@@ -54,17 +54,16 @@ struct StrokePass {
     double left_px = 0, top_px = 0; ///< whole pixels: origin of the vertex positions
 };
 
-/// Builds the quads of a polyline, one per line segment, or several for a long one. At gentle bends
-/// neighbours share a mitred edge, so that no pixel is painted twice; at sharp bends, and where a
-/// line segment is shorter than the mitre, both get round ends. Where the look changes, the one
-/// that is painted later ends softly over its neighbour.
+/// Appends the quads of a polyline, one per line segment, or several for a long one. At gentle
+/// bends neighbours share a mitred edge, so that no pixel is painted twice; at sharp bends, and
+/// where a line segment is shorter than the mitre, both get round ends. Where the look changes, the
+/// one that is painted later ends softly over its neighbour.
 ///
 /// The visible box and the corner select quads and shift them by whole pixels, exactly: a part of a
 /// picture is painted as in the whole picture.
-std::vector<StrokeQuad> stroke_polyline(const Polyline& polyline, const StrokePass& pass);
-
-/// Appends the quads of a polyline to others.
-void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& polyline, const StrokePass& pass);
+void append_stroke(std::vector<StrokeQuad>& quads,
+                   const Polyline& polyline,
+                   const StrokePass& pass);
 
 /// Offsets the polyline to the right of its direction (to the left if negative).
 Polyline beside(const Polyline& polyline, double right_px);

@@ -53,7 +53,7 @@ void main() {
 }
 )";
 
-// Coverage is the part of a one pixel wide window across the line that lies on the stroke_polyline,
+// Coverage is the part of a one pixel wide window across the line that lies on the stroke,
 // which is also right for lines thinner than a pixel. Values are not interpolated: the pixel's
 // position relative to the anchor is exact, so the result does not depend on their position in the
 // window.

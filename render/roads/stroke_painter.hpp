@@ -11,7 +11,7 @@ namespace macadam {
 
 inline constexpr int max_stroke_window_px = 8192; ///< maximum side of a context's picture
 
-/// Draws ribbons into a context's picture. Coverage is computed from a pixel's distance to the
+/// Draws strokes into a context's picture. Coverage is computed from a pixel's distance to the
 /// centre line, so edges are smooth without supersampling.
 class StrokePainter {
 public:

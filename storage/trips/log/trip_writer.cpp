@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace macadam {
 
@@ -225,10 +226,6 @@ void stop_if_wanted(const std::stop_token& stop, const std::filesystem::path& fi
 }
 
 } // namespace
-
-std::span<const std::string_view> trip_log_suffixes() {
-    return suffixes;
-}
 
 std::size_t write_trip(const TripLog& trip,
                        const std::filesystem::path& file,

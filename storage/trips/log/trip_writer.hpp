@@ -4,14 +4,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <stop_token>
-#include <string_view>
 
 namespace macadam {
-
-/// Suffixes supported by write_trip: .trip.csv, .trip.csv.gz, .trip.csv.zst.
-std::span<const std::string_view> trip_log_suffixes();
 
 /// Writes a trip as a "macadam-trip 1" log; the suffix selects the compression. The file appears
 /// complete or not at all. Equal trips give equal bytes.

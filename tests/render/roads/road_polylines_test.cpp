@@ -1,5 +1,7 @@
 #include "render/roads/road_polylines.hpp"
 
+#include "render/roads/stroke_geometry.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,6 +19,12 @@ MapLine line(const std::vector<PixelPoint>& pixels, int iri_class) {
     }
     made.iri_class = iri_class;
     return made;
+}
+
+std::vector<StrokeQuad> stroke_of(const Polyline& polyline, const StrokePass& pass) {
+    std::vector<StrokeQuad> quads;
+    append_stroke(quads, polyline, pass);
+    return quads;
 }
 
 double distance_px(const Polyline& polyline, const PixelPoint& at) {
@@ -113,7 +121,7 @@ TEST(RoadPolylines, DependOnNoDistantLineWhereTheyAreSeparate) {
         const StrokePass pass{.radius_px = 5, .looks = every_look, .visible = {0, 0, 1000, 1000}};
         const auto quads_of = [&](const Polyline& polyline) {
             std::vector<float> corners;
-            for (const auto& quad : stroke_polyline(beside(polyline, right_px), pass)) {
+            for (const auto& quad : stroke_of(beside(polyline, right_px), pass)) {
                 for (const auto& corner : quad) {
                     corners.insert(corners.end(), {corner.x_px, corner.y_px, corner.round_after});
                 }
@@ -140,7 +148,7 @@ TEST(RoadPolylines, CloseARingWhereTheyAreSeparate) {
     for (const auto& polyline : polylines) {
         EXPECT_EQ(polyline.first, 2U); // two line segments before the line, and two after it
         EXPECT_EQ(polyline.looks.size(), 5U);
-        const auto quads = stroke_polyline(polyline, {5, every_look, {0, 0, 1000, 1000}});
+        const auto quads = stroke_of(polyline, {5, every_look, {0, 0, 1000, 1000}});
         ASSERT_FALSE(quads.empty());
         for (const auto& quad : quads) {
             EXPECT_EQ(quad[0].round_before, 0); // mitred, also where the ring's numbers begin
