@@ -87,9 +87,11 @@ std::size_t count_of(const std::vector<Square>& squares) {
 }
 
 /// Draws squares, one after the other.
-class Drawer {
+class TileRenderer {
 public:
-    Drawer(const std::filesystem::path& store, const PicturePlan& plan, LockWaitPolicy wait_policy)
+    TileRenderer(const std::filesystem::path& store,
+                 const PicturePlan& plan,
+                 LockWaitPolicy wait_policy)
         : store_{StoreReader::open(store, std::move(wait_policy))}, plan_{plan},
           painter_{{plan.style, plan.tile_px, square_px / plan.tile_px}}, png_{plan.style},
           empty_{png_.empty(plan.tile_px)} {}
@@ -190,14 +192,15 @@ using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>
                             std::size_t first,
                             int pipe) {
     try {
-        Drawer drawer{store, plan, wait_policy};
+        TileRenderer renderer{store, plan, wait_policy};
         const auto squares = squares_of(plan);
         for (auto i = first; i < squares.size(); i += plan.jobs) {
-            drawer.draw(squares[i], [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
-                tell(pipe,
-                     {Head::Kind::tile, tile, static_cast<std::uint32_t>(png.size())},
-                     png.data());
-            });
+            renderer.draw(squares[i],
+                          [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
+                              tell(pipe,
+                                   {Head::Kind::tile, tile, static_cast<std::uint32_t>(png.size())},
+                                   png.data());
+                          });
         }
     } catch (const std::exception& error) {
         const std::string_view why{error.what()};

@@ -152,7 +152,7 @@ public:
 
 private:
     static std::string file_of(const GeoPoint& point) {
-        const auto place = tile_place(point, compare_zoom);
+        const auto place = tile_position(point, compare_zoom);
         return fmt::format("months/{}/{}/{}.json",
                            compare_zoom,
                            static_cast<int>(place.x),

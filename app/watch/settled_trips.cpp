@@ -103,7 +103,7 @@ bool SettledTrips::is_complete(const fs::path& trip,
             age, fs::file_time_type::clock::now() - candidate.version.changed);
     }
     if (trip.filename().string().ends_with(".trip.csv")) {
-        return has_end_row(trip) ? candidate.is_closed || age >= settling : age >= patience;
+        return has_end_row(trip) ? candidate.is_closed || age >= settling : age >= end_row_wait;
     }
     return age >= (candidate.has_changed ? settling_after_change : settling) &&
            !holds_file_being_written(trip);

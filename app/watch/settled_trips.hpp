@@ -24,7 +24,7 @@ public:
 
     static constexpr std::chrono::seconds settling{10};
     static constexpr std::chrono::minutes settling_after_change{1};
-    static constexpr std::chrono::minutes patience{5};
+    static constexpr std::chrono::minutes end_row_wait{5};
 
     SettledTrips(std::filesystem::path folder, TripWalkConfig config);
 

@@ -28,7 +28,7 @@ struct Stretch {
 };
 
 /// Returns the travelled distance along the new roads for each position of a run.
-std::vector<double> gone_m(const WalkRun& run) {
+std::vector<double> gone_m(const WayMatchRun& run) {
     std::vector<double> gone{0};
     for (std::size_t i = 1; i < run.size(); ++i) {
         const bool same_edge = run[i].edge == run[i - 1].edge;
@@ -37,16 +37,16 @@ std::vector<double> gone_m(const WalkRun& run) {
     return gone;
 }
 
-bool is_at_change(const WalkRun& run, std::size_t i) {
+bool is_at_change(const WayMatchRun& run, std::size_t i) {
     return (i > 0 && run[i - 1].edge != run[i].edge) ||
            (i + 1 < run.size() && run[i + 1].edge != run[i].edge);
 }
 
 /// Between two nodes common to both networks, lengths are more accurate than perpendicular feet,
 /// which lag behind where the map was shifted along the road.
-WalkRun proportioned(const WalkRun& run, const ChangeConfig& config) {
+WayMatchRun proportioned(const WayMatchRun& run, const ChangeConfig& config) {
     const auto gone = gone_m(run);
-    WalkRun result;
+    WayMatchRun result;
     std::optional<std::size_t> last;
     for (std::size_t i = 0; i < run.size(); ++i) {
         result.push_back(run[i]);
@@ -77,7 +77,7 @@ double station_on(const Link& link, bool forward, double along_m) {
     return forward ? link.from_m + along_m : along_m - link.to_m;
 }
 
-std::vector<Stretch> stretches_of(const RoadNetwork& after, const WalkRun& run) {
+std::vector<Stretch> stretches_of(const RoadNetwork& after, const WayMatchRun& run) {
     std::vector<Stretch> stretches;
     for (const auto& place : run) {
         const auto link = link_at(after, place.edge);
@@ -124,7 +124,7 @@ double whole_mm(double at_m) {
     return std::round(at_m * 1000) / 1000;
 }
 
-double before_m(const WalkRun& run) {
+double before_m(const WayMatchRun& run) {
     return run.back().offset_m - run.front().offset_m;
 }
 
@@ -142,7 +142,7 @@ std::vector<RoadCorrespondence> same_roads(const RoadNetwork& before,
                                            const RoadNetwork& after,
                                            std::uint32_t way,
                                            bool forward,
-                                           const std::vector<WalkRun>& runs,
+                                           const std::vector<WayMatchRun>& runs,
                                            const std::vector<bool>& left_out,
                                            const ChangeConfig& config) {
     const auto old = way_at(before, way);

@@ -17,7 +17,7 @@ std::vector<RoadCorrespondence> same_roads(const RoadNetwork& before,
                                            const RoadNetwork& after,
                                            std::uint32_t way,
                                            bool forward,
-                                           const std::vector<WalkRun>& runs,
+                                           const std::vector<WayMatchRun>& runs,
                                            const std::vector<bool>& left_out,
                                            const ChangeConfig& config);
 

@@ -74,19 +74,19 @@ NetworkChange change_between(const RoadNetwork& before,
                              const ChangeConfig& config,
                              const Progress& progress) {
     auto kept = kept_ways(before, after);
-    const RoadWalker walker{before, after, kept.is_after, config};
+    const WayMatcher matcher{before, after, kept.is_after, config};
     std::vector<WayMatch> ways;
     const auto count = way_count(before);
     for (std::uint32_t i = 0; i < count && !progress.stop.stop_requested(); ++i) {
         for (const bool forward : {true, false}) {
             if (!kept.is_before[i] && may_drive(way_at(before, i), forward)) {
-                ways.push_back(followed_again(
-                    {.way = i, .forward = forward}, before, after, walker, kept.is_after, config));
+                ways.push_back(matched_again(
+                    {.way = i, .forward = forward}, before, after, matcher, kept.is_after, config));
             }
         }
         progress(i + 1, count);
     }
-    ways = assign_one_to_one(std::move(ways), before, after, walker, kept.is_after, config);
+    ways = assign_one_to_one(std::move(ways), before, after, matcher, kept.is_after, config);
 
     NetworkChange change{std::move(kept.ids), {}};
     for (const auto& way : ways) {

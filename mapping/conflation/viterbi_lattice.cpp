@@ -31,7 +31,7 @@ bool may_go_on(const RoadNetwork& roads, EdgeId from, EdgeId to) {
 
 /// Finds the path between two states over at most one entire edge.
 std::optional<Hop>
-hop(const RoadNetwork& roads, const WalkState& from, const WalkState& to, double longest_m) {
+hop(const RoadNetwork& roads, const ViterbiState& from, const ViterbiState& to, double longest_m) {
     if (from.edge == to.edge && to.offset_m >= from.offset_m - step_back_m) {
         return Hop{to.offset_m - from.offset_m, std::nullopt};
     }
@@ -63,7 +63,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 } // namespace
 
 WayLattice::Node
-WayLattice::reached(const Column& from, const WalkState& state, double offset_m) const {
+WayLattice::reached(const Column& from, const ViterbiState& state, double offset_m) const {
     const double step_m = offset_m - from.offset_m;
     const double slack_m = min_slack_m + relative_slack * step_m;
     const auto nowhere = static_cast<std::uint32_t>(from.nodes.size() - 1);
@@ -85,9 +85,9 @@ WayLattice::reached(const Column& from, const WalkState& state, double offset_m)
     return best;
 }
 
-void WayLattice::add(double offset_m, double weight, std::vector<WalkState> states) {
+void WayLattice::add(double offset_m, double weight, std::vector<ViterbiState> states) {
     Column column{offset_m, {}};
-    const WalkState nowhere{EdgeId{}, 0, weight * nowhere_cost};
+    const ViterbiState nowhere{EdgeId{}, 0, weight * nowhere_cost};
     if (columns_.empty()) {
         for (const auto& state : states) {
             column.nodes.push_back({state, state.cost, 0, false, std::nullopt});
@@ -116,7 +116,7 @@ void WayLattice::add(double offset_m, double weight, std::vector<WalkState> stat
 namespace {
 
 /// Extends a run to a position, adding the positions at a change of edge.
-void go_on(WalkRun& run,
+void go_on(WayMatchRun& run,
            const RoadNetwork& roads,
            const WayMatchPoint& to,
            const std::optional<EdgeId>& between) {
@@ -139,14 +139,14 @@ void go_on(WalkRun& run,
 } // namespace
 
 WayMatching WayLattice::likeliest() const {
-    WayMatching walk;
+    WayMatching matching;
     if (columns_.empty()) {
-        return walk;
+        return matching;
     }
     std::vector<std::uint32_t> path(columns_.size());
     const auto& ends = columns_.back().nodes;
     const auto best = std::ranges::min_element(ends, {}, &Node::cost);
-    walk.cost = best->cost;
+    matching.cost = best->cost;
     path.back() = static_cast<std::uint32_t>(best - ends.begin());
     for (std::size_t i = columns_.size() - 1; i > 0; --i) {
         path[i - 1] = columns_[i].nodes[path[i]].before;
@@ -160,15 +160,15 @@ WayMatching WayLattice::likeliest() const {
         const WayMatchPoint place{
             column.offset_m, node.state.edge, node.state.offset_m, node.state.is_node};
         if (!node.is_walked || i == 0) {
-            walk.runs.push_back({place});
-        } else if (const auto& last = walk.runs.back().back();
+            matching.runs.push_back({place});
+        } else if (const auto& last = matching.runs.back().back();
                    last.edge == place.edge && place.along_m >= last.along_m - step_back_m) {
-            walk.runs.back().push_back(place);
+            matching.runs.back().push_back(place);
         } else {
-            go_on(walk.runs.back(), *roads_, place, node.between);
+            go_on(matching.runs.back(), *roads_, place, node.between);
         }
     }
-    return walk;
+    return matching;
 }
 
 } // namespace macadam

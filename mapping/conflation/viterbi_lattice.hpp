@@ -9,7 +9,7 @@
 namespace macadam {
 
 /// A candidate state of a sample with its emission cost.
-struct WalkState {
+struct ViterbiState {
     EdgeId edge;
     double offset_m; ///< along the edge, in its direction
     double cost;
@@ -28,13 +28,13 @@ public:
     ///
     /// \param offset_m  along the way that is followed; ascending
     /// \param weight    length of way that the sample represents, in tens of metres
-    void add(double offset_m, double weight, std::vector<WalkState> states);
+    void add(double offset_m, double weight, std::vector<ViterbiState> states);
 
     WayMatching likeliest() const;
 
 private:
     struct Node {
-        WalkState state;
+        ViterbiState state;
         double cost;                   ///< of the best path up to this state
         std::uint32_t before;          ///< predecessor, an index into the previous column
         bool is_walked;                ///< reached along the roads from the predecessor
@@ -45,7 +45,7 @@ private:
         std::vector<Node> nodes; ///< the last one is "gone"
     };
 
-    Node reached(const Column& from, const WalkState& state, double offset_m) const;
+    Node reached(const Column& from, const ViterbiState& state, double offset_m) const;
 
     const RoadNetwork* roads_;
     std::vector<Column> columns_;

@@ -19,12 +19,12 @@ struct WayMatch {
 };
 
 /// Matches the way again without its barred edges.
-WayMatch followed_again(WayMatch way,
-                        const RoadNetwork& before,
-                        const RoadNetwork& after,
-                        const RoadWalker& walker,
-                        const std::vector<bool>& left_out,
-                        const ChangeConfig& config);
+WayMatch matched_again(WayMatch way,
+                       const RoadNetwork& before,
+                       const RoadNetwork& after,
+                       const WayMatcher& matcher,
+                       const std::vector<bool>& left_out,
+                       const ChangeConfig& config);
 
 /// Resolves conflicts so that no two ways match the same road: of two that do, the one that loses
 /// less is matched again elsewhere; if they overlap only at their ends, both end in the middle of
@@ -32,7 +32,7 @@ WayMatch followed_again(WayMatch way,
 std::vector<WayMatch> assign_one_to_one(std::vector<WayMatch> ways,
                                         const RoadNetwork& before,
                                         const RoadNetwork& after,
-                                        const RoadWalker& walker,
+                                        const WayMatcher& matcher,
                                         const std::vector<bool>& left_out,
                                         const ChangeConfig& config);
 

@@ -50,13 +50,13 @@ double cost_of_words(const WayView& before, const WayView& after) {
 
 /// Builds the state of a sample at a junction or end: it is moved to a nearby node where equally
 /// many roads meet. At a junction, a different kind of junction, or none, adds a cost.
-WalkState at_node(const RoadNetwork& after,
-                  const std::vector<std::uint32_t>& met,
-                  const EdgeCandidate& place,
-                  std::uint32_t roads_met) {
+ViterbiState at_node(const RoadNetwork& after,
+                     const std::vector<std::uint32_t>& met,
+                     const EdgeCandidate& place,
+                     std::uint32_t roads_met) {
     constexpr std::uint32_t least_of_junction = 3;
     const bool is_junction = roads_met >= least_of_junction;
-    WalkState state{place.edge, place.offset_m, is_junction ? no_junction_cost : 0};
+    ViterbiState state{place.edge, place.offset_m, is_junction ? no_junction_cost : 0};
     double nearest_m = junction_reach_m;
     const auto look_at = [&](NodeId node, double at_m) {
         const auto there = met[static_cast<std::uint32_t>(node)];
@@ -91,14 +91,14 @@ std::vector<double> weights_of(const std::vector<RoadSample>& samples) {
 
 } // namespace
 
-RoadWalker::RoadWalker(const RoadNetwork& before,
+WayMatcher::WayMatcher(const RoadNetwork& before,
                        const RoadNetwork& after,
                        const std::vector<bool>& left_out,
                        const ChangeConfig& config)
     : before_{&before}, after_{&after}, near_{after, left_out, config}, config_{config},
       met_before_{links_met(before)}, met_after_{links_met(after)} {}
 
-std::vector<RoadSample> RoadWalker::samples_of(const WayView& way, bool forward) const {
+std::vector<RoadSample> WayMatcher::samples_of(const WayView& way, bool forward) const {
     const double whole_m = way.along_m.back();
     const double sign = forward ? 1 : -1;
     std::vector<RoadSample> samples;
@@ -125,7 +125,7 @@ std::vector<RoadSample> RoadWalker::samples_of(const WayView& way, bool forward)
 }
 
 WayMatching
-RoadWalker::walk(std::uint32_t number, bool forward, const std::set<EdgeId>& barred) const {
+WayMatcher::match(std::uint32_t number, bool forward, const std::set<EdgeId>& barred) const {
     const auto way = way_at(*before_, number);
     const auto samples = samples_of(way, forward);
     const auto weights = weights_of(samples);
@@ -135,14 +135,14 @@ RoadWalker::walk(std::uint32_t number, bool forward, const std::set<EdgeId>& bar
         const auto around = near_.around(std::span{samples}.subspan(first, count));
         for (std::size_t i = 0; i < count; ++i) {
             const auto& sample = samples[first + i];
-            std::vector<WalkState> states;
+            std::vector<ViterbiState> states;
             for (const auto& place : around[i]) {
                 if (!barred.contains(place.edge)) {
                     const double off = place.across_m / sd_across_m;
                     const double cost =
                         off * off / 2 + cost_of_words(way, way_of(*after_, place.edge));
                     auto state = is_between(sample.roads_met)
-                                     ? WalkState{place.edge, place.offset_m, 0}
+                                     ? ViterbiState{place.edge, place.offset_m, 0}
                                      : at_node(*after_, met_after_, place, sample.roads_met);
                     state.cost += weights[first + i] * cost;
                     states.push_back(state);

@@ -18,18 +18,18 @@ struct WayMatchPoint {
 
 /// An unbroken run along both networks. Each change of edge occurs twice, at the ends of both
 /// edges.
-using WalkRun = std::vector<WayMatchPoint>;
+using WayMatchRun = std::vector<WayMatchPoint>;
 
 struct WayMatching {
     double cost = 0; ///< -log likelihood, up to a constant
-    std::vector<WalkRun> runs;
+    std::vector<WayMatchRun> runs;
 };
 
 /// Matches ways of one network to another.
-class RoadWalker {
+class WayMatcher {
 public:
     /// \param left_out  ways of `after` that are no candidates. All arguments outlive this object.
-    RoadWalker(const RoadNetwork& before,
+    WayMatcher(const RoadNetwork& before,
                const RoadNetwork& after,
                const std::vector<bool>& left_out,
                const ChangeConfig& config);
@@ -37,7 +37,7 @@ public:
     /// Finds the most likely match of a way in one direction.
     ///
     /// \param barred  edges that must not be used
-    WayMatching walk(std::uint32_t way, bool forward, const std::set<EdgeId>& barred = {}) const;
+    WayMatching match(std::uint32_t way, bool forward, const std::set<EdgeId>& barred = {}) const;
 
 private:
     std::vector<RoadSample> samples_of(const WayView& way, bool forward) const;

@@ -91,12 +91,13 @@ double worst_sd_m(std::span<const PathSample> knots) {
 }
 
 void add_leg(MatchedTrace& trace,
-             const Leg& leg,
+             const PathInterval& interval,
              const std::vector<PathSample>& knots,
              const Odometer& odometer) {
     auto rest = std::span{knots};
     const auto offset_m = [&](const PathSample& knot) {
-        return std::clamp(leg.from_m + knot.along_m - leg.start_m, leg.from_m, leg.to_m);
+        return std::clamp(
+            interval.from_m + knot.along_m - interval.start_m, interval.from_m, interval.to_m);
     };
     while (rest.size() >= 2) {
         const auto count = straight_count(rest);
@@ -104,14 +105,14 @@ void add_leg(MatchedTrace& trace,
         const auto& to = rest[count - 1];
         if (from.travel_m < to.travel_m) {
             trace.push_back({IntervalKind::road,
-                             leg.edge,
+                             interval.edge,
                              from.travel_m,
                              to.travel_m,
                              offset_m(from),
                              offset_m(to),
                              odometer.t_s(from.travel_m),
                              odometer.t_s(to.travel_m),
-                             leg.confidence,
+                             interval.confidence,
                              "",
                              worst_sd_m(rest.first(count))});
         }
@@ -122,11 +123,12 @@ void add_leg(MatchedTrace& trace,
 MatchedTrace
 pieces_of(const RoadPath& path, const std::vector<PathSample>& knots, const Odometer& odometer) {
     MatchedTrace pieces;
-    for (const auto& leg : path.legs) {
-        add_leg(pieces,
-                leg,
-                clipped(knots, leg.start_m, leg.start_m + leg.to_m - leg.from_m),
-                odometer);
+    for (const auto& interval : path.intervals) {
+        add_leg(
+            pieces,
+            interval,
+            clipped(knots, interval.start_m, interval.start_m + interval.to_m - interval.from_m),
+            odometer);
     }
     return pieces;
 }

@@ -37,9 +37,9 @@ private:
 };
 
 /// Interpolates an ascending table, read from front to back.
-class Walk {
+class TableCursor {
 public:
-    explicit Walk(const std::vector<double>& x) : x_{x} {}
+    explicit TableCursor(const std::vector<double>& x) : x_{x} {}
 
     void to(double x) {
         while (at_ + 2 < x_.size() && x_[at_ + 1] <= x) {
@@ -65,15 +65,15 @@ RoadUnderWheels road_under(const DrivenPath& path, const LaneSource& lanes, doub
     road.left_m.reserve(count);
     road.right_m.reserve(count);
 
-    Walk walk{path.travel_m};
+    TableCursor cursor{path.travel_m};
     Track left;
     Track right;
     std::size_t piece = 0;
     auto surface = lanes(path.pieces.front().lane);
     for (std::size_t i = 0; i < count; ++i) {
-        walk.to(static_cast<double>(i) * road.step_m);
-        const double route_m = walk.of(path.route_m);
-        const double wander_m = walk.of(path.wander_m);
+        cursor.to(static_cast<double>(i) * road.step_m);
+        const double route_m = cursor.of(path.route_m);
+        const double wander_m = cursor.of(path.wander_m);
         const auto under = [&](double side_m) {
             const auto& at = path.pieces[piece];
             return elevation_m(*surface, at.station_m + (route_m - at.from_m), wander_m + side_m);

@@ -60,7 +60,7 @@ RoadPart worse_of(const RoadPart& forward, const RoadPart& backward) {
 } // namespace
 
 WorldPoint world_point(const GeoPoint& point) {
-    const auto place = tile_place(point, measured_zoom);
+    const auto place = tile_position(point, measured_zoom);
     return {units(place.x), units(place.y)};
 }
 

@@ -23,13 +23,13 @@ std::uint32_t tile_at(double place, int zoom) {
 
 } // namespace
 
-TilePlace tile_place(const GeoPoint& point, int zoom) {
+TilePosition tile_position(const GeoPoint& point, int zoom) {
     const double lat_rad = std::clamp(point.lat_deg, -farthest_deg, farthest_deg) * rad_per_deg;
     const double y = 0.5 - std::asinh(std::tan(lat_rad)) / (2 * std::numbers::pi);
     return {(point.lon_deg + 180) / 360 * tiles_across(zoom), y * tiles_across(zoom)};
 }
 
-GeoPoint geo_point(const TilePlace& place, int zoom) {
+GeoPoint geo_point(const TilePosition& place, int zoom) {
     const double y_rad = (0.5 - place.y / tiles_across(zoom)) * 2 * std::numbers::pi;
     return {std::atan(std::sinh(y_rad)) / rad_per_deg, place.x / tiles_across(zoom) * 360 - 180};
 }
@@ -44,8 +44,8 @@ GeoBox tile_box(const TileId& tile, double margin) {
 }
 
 TileRange tiles_of(const GeoBox& box, int zoom) {
-    const auto first = tile_place({box.north_deg, box.west_deg}, zoom);
-    const auto last = tile_place({box.south_deg, box.east_deg}, zoom);
+    const auto first = tile_position({box.north_deg, box.west_deg}, zoom);
+    const auto last = tile_position({box.south_deg, box.east_deg}, zoom);
     return {tile_at(first.x, zoom),
             tile_at(first.y, zoom),
             tile_at(last.x, zoom),

@@ -21,7 +21,7 @@ struct TileId {
 inline constexpr int max_zoom = 22; ///< a tile of 256 px is then 10 m wide at the equator
 
 /// A position in tile coordinates of a zoom; the integer parts identify the tile.
-struct TilePlace {
+struct TilePosition {
     double x = 0;
     double y = 0;
 };
@@ -29,8 +29,8 @@ struct TilePlace {
 /// Converts a position to tile coordinates.
 ///
 /// \param point  latitudes are clamped to 85.0511 degrees.
-TilePlace tile_place(const GeoPoint& point, int zoom);
-GeoPoint geo_point(const TilePlace& place, int zoom);
+TilePosition tile_position(const GeoPoint& point, int zoom);
+GeoPoint geo_point(const TilePosition& place, int zoom);
 
 /// Returns the extent of a tile, enlarged by `margin` tiles on each side.
 GeoBox tile_box(const TileId& tile, double margin = 0);

@@ -1,7 +1,7 @@
 #include "mapping/transfer/transferred_passes.hpp"
 
 #include "mapping/transfer/transferred_events.hpp"
-#include "mapping/transfer/transferred_pieces.hpp"
+#include "mapping/transfer/transferred_intervals.hpp"
 #include "mapping/transfer/transferred_trace.hpp"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ ChunkOrder order_of(const ChunkKey& chunk) {
 }
 
 /// Length-weighted sums over the intervals of one pass.
-class PieceMean {
+class IntervalMean {
 public:
-    explicit PieceMean(std::span<const CarriedPiece> pieces) : pieces_{pieces} {
-        for (const auto& piece : pieces) {
-            covered_m_ += piece.covered_m;
+    explicit IntervalMean(std::span<const TransferredInterval> intervals) : intervals_{intervals} {
+        for (const auto& interval : intervals) {
+            covered_m_ += interval.covered_m;
         }
     }
 
@@ -37,40 +37,41 @@ public:
     template <typename Value>
     double of(Value value) const {
         double sum = 0;
-        for (const auto& piece : pieces_) {
-            sum += piece.covered_m * value(piece);
+        for (const auto& interval : intervals_) {
+            sum += interval.covered_m * value(interval);
         }
         return sum / covered_m_;
     }
 
     template <typename Integer>
     Integer whole(Integer Pass::*value) const {
-        return static_cast<Integer>(std::llround(of(
-            [&](const CarriedPiece& piece) { return static_cast<double>(piece.pass->*value); })));
+        return static_cast<Integer>(std::llround(of([&](const TransferredInterval& interval) {
+            return static_cast<double>(interval.pass->*value);
+        })));
     }
 
     /// Returns the mean; `std::nullopt` if one of the passes lacks the value.
     std::optional<IriUm> known(std::optional<IriUm> Pass::*value) const {
-        const auto is_known = [&](const CarriedPiece& piece) {
-            return (piece.pass->*value).has_value();
+        const auto is_known = [&](const TransferredInterval& interval) {
+            return (interval.pass->*value).has_value();
         };
-        return std::ranges::all_of(pieces_, is_known)
+        return std::ranges::all_of(intervals_, is_known)
                    ? std::optional{static_cast<IriUm>(
-                         std::lround(of([&](const CarriedPiece& piece) {
-                             return static_cast<double>(*(piece.pass->*value));
+                         std::lround(of([&](const TransferredInterval& interval) {
+                             return static_cast<double>(*(interval.pass->*value));
                          })))}
                    : std::nullopt;
     }
 
 private:
-    std::span<const CarriedPiece> pieces_;
+    std::span<const TransferredInterval> intervals_;
     double covered_m_ = 0;
 };
 
 /// Builds the pass of a drive over one new segment; `std::nullopt` if too little of it is covered.
-std::optional<Pass> pass_of(std::span<const CarriedPiece> pieces) {
-    const PieceMean mean{pieces};
-    const auto& first = pieces.front();
+std::optional<Pass> pass_of(std::span<const TransferredInterval> intervals) {
+    const IntervalMean mean{intervals};
+    const auto& first = intervals.front();
     const double segment_m = length_m(first.correspondence.whole_m);
     const double covered_m = std::min(segment_m, mean.covered_m());
     if (!(covered_m > 0) || covered_m < min_cover * segment_m) {
@@ -86,20 +87,21 @@ std::optional<Pass> pass_of(std::span<const CarriedPiece> pieces) {
     pass.speed_mmps = mean.whole(&Pass::speed_mmps);
     pass.confidence_ppm = mean.whole(&Pass::confidence_ppm);
     pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m * mm_per_m));
-    pass.t_ms = std::llround(mean.of([](const CarriedPiece& piece) { return piece.t_ms; }));
-    for (const auto& piece : pieces) {
-        pass.centre_only = pass.centre_only || piece.pass->centre_only;
-        pass.validity = static_cast<std::uint8_t>(pass.validity | piece.pass->validity);
+    pass.t_ms =
+        std::llround(mean.of([](const TransferredInterval& interval) { return interval.t_ms; }));
+    for (const auto& interval : intervals) {
+        pass.centre_only = pass.centre_only || interval.pass->centre_only;
+        pass.validity = static_cast<std::uint8_t>(pass.validity | interval.pass->validity);
     }
     return pass;
 }
 
 /// Groups the intervals of a drive by new segment; each segment occurs once.
-std::map<SegmentKey, std::vector<CarriedPiece>>
-pieces_by_segment(const std::vector<CarriedPiece>& pieces) {
-    std::map<SegmentKey, std::vector<CarriedPiece>> by_segment;
-    for (const auto& piece : pieces) {
-        by_segment[piece.correspondence.after].push_back(piece);
+std::map<SegmentKey, std::vector<TransferredInterval>>
+intervals_by_segment(const std::vector<TransferredInterval>& intervals) {
+    std::map<SegmentKey, std::vector<TransferredInterval>> by_segment;
+    for (const auto& interval : intervals) {
+        by_segment[interval.correspondence.after].push_back(interval);
     }
     return by_segment;
 }
@@ -110,23 +112,23 @@ struct NewPass {
     std::vector<const Pass*> made_of;
 };
 
-std::vector<NewPass> passes_of(const CarriedDrive& drive,
+std::vector<NewPass> passes_of(const TransferredDrive& drive,
                                const SegmentCorrespondences& correspondences) {
     std::vector<NewPass> passes;
-    for (const auto& [key, pieces] : pieces_by_segment(drive.pieces)) {
+    for (const auto& [key, intervals] : intervals_by_segment(drive.intervals)) {
         std::vector<const Pass*> made_of;
-        std::ranges::transform(pieces, std::back_inserter(made_of), &CarriedPiece::pass);
+        std::ranges::transform(intervals, std::back_inserter(made_of), &TransferredInterval::pass);
         // Slivers of its neighbours, below a millimetre, may be present too.
-        const auto same = std::ranges::find_if(pieces, [&](const CarriedPiece& piece) {
-            const auto correspondence = correspondences.unchanged(piece.pass->segment);
+        const auto same = std::ranges::find_if(intervals, [&](const TransferredInterval& interval) {
+            const auto correspondence = correspondences.unchanged(interval.pass->segment);
             return correspondence && correspondence->after == key;
         });
-        if (same != pieces.end()) {
+        if (same != intervals.end()) {
             auto pass = *same->pass;
             pass.segment = key;
             pass.drive = drive.number;
             passes.push_back({pass, std::move(made_of)});
-        } else if (auto pass = pass_of(pieces)) {
+        } else if (auto pass = pass_of(intervals)) {
             pass->drive = drive.number;
             passes.push_back({*pass, std::move(made_of)});
         }
@@ -222,8 +224,8 @@ TransferredPasses transfer_passes(const TripPasses& old,
                                   const SegmentCorrespondences& correspondences) {
     auto [all, rest] = parted(old, correspondences);
     std::vector<NewPass> passes;
-    for (const auto& pieces : pieces_by_chunk(rest.passes, correspondences)) {
-        for (const auto& drive : drives_of(pieces)) {
+    for (const auto& intervals : intervals_by_chunk(rest.passes, correspondences)) {
+        for (const auto& drive : drives_of(intervals)) {
             std::ranges::move(passes_of(drive, correspondences), std::back_inserter(passes));
             if (auto trace =
                     trace_of(drive, rest.traces, correspondences.before().segment_length_m)) {

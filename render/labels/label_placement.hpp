@@ -10,8 +10,8 @@
 namespace macadam {
 
 /// Interval of a road on the plane in which labels are placed: pixels of the whole world at one
-/// zoom (x from the antimeridian, y from the north, as `tile_place` times the size of a tile), or
-/// of one picture. Intervals of one road share bit-identical end points.
+/// zoom (x from the antimeridian, y from the north, as `tile_position` times the size of a tile),
+/// or of one picture. Intervals of one road share bit-identical end points.
 struct RoadName {
     std::vector<PixelPoint> line;
     std::string name;         ///< "": no label, but other labels avoid the line

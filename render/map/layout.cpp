@@ -41,8 +41,8 @@ Block block(
     return {lines, look};
 }
 
-std::vector<PlacedText> placed(const Block& block, const PixelPoint& corner, bool quiet) {
-    std::vector<PlacedText> texts;
+std::vector<PositionedText> placed(const Block& block, const PixelPoint& corner, bool quiet) {
+    std::vector<PositionedText> texts;
     texts.reserve(block.lines.size());
     double y = corner.y + block.look.size_px * ascent;
     for (const auto& line : block.lines) {
@@ -71,7 +71,7 @@ Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter&
     const double max_px = height_px * max_header;
     Layout layout;
     layout.unit = unit;
-    const auto add = [&layout](const std::vector<PlacedText>& texts) {
+    const auto add = [&layout](const std::vector<PositionedText>& texts) {
         layout.texts.insert(layout.texts.end(), texts.begin(), texts.end());
     };
 

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-struct PlacedText {
+struct PositionedText {
     std::string text;
     TextLook look;
     PixelPoint at; ///< left end of the baseline
@@ -20,7 +20,7 @@ struct PlacedText {
 struct Layout {
     double unit = 1; ///< size of one pixel of a 1000 px picture
     PixelBox map;
-    std::vector<PlacedText> texts;
+    std::vector<PositionedText> texts;
     PixelBox scale_room; ///< area of north arrow and scale bar
     bool scale_bar = true;
     bool edges = true; ///< hairlines around the map

@@ -90,7 +90,7 @@ PaintPart ground_of(const MapScene& scene,
     if (!scene.base) {
         return {};
     }
-    const auto place = plane_place(frame);
+    const auto place = plane_position(frame);
     return ground_with(scene.base->laid_on({.wkt = scene.projection ? scene.projection->wkt : "",
                                             .left = place.left,
                                             .top = place.top,
@@ -144,8 +144,8 @@ GeoBox MapPlan::ground() const {
                     edge_share);
 }
 
-PlanePlace MapPlan::place() const {
-    return plane_place(placement_.frame);
+PlanePosition MapPlan::place() const {
+    return plane_position(placement_.frame);
 }
 
 double MapPlan::ground_width_m() const {

@@ -37,7 +37,7 @@ public:
     const PictureSize& size() const { return size_; }
 
     /// Returns the position of the picture on the plane of its projection.
-    PlanePlace place() const;
+    PlanePosition place() const;
 
     /// Returns the ground width of the picture at half its height.
     double ground_width_m() const;

@@ -11,18 +11,18 @@ namespace {
 
 constexpr int lowest_rank = 5;
 
-using Strands = std::vector<const Polyline*>;
+using PolylineRefs = std::vector<const Polyline*>;
 
-bool is_measured(const Polyline& strand) {
-    return strand.looks.front() != unmeasured_look;
+bool is_measured(const Polyline& line) {
+    return line.looks.front() != unmeasured_look;
 }
 
-Strands strands_of(std::span<const Polyline> strands, int rank, bool measured) {
-    Strands found;
-    for (const auto& strand : strands) {
-        if (!strand.looks.empty() && std::clamp(strand.rank, 0, lowest_rank) == rank &&
-            is_measured(strand) == measured) {
-            found.push_back(&strand);
+PolylineRefs lines_of(std::span<const Polyline> lines, int rank, bool measured) {
+    PolylineRefs found;
+    for (const auto& line : lines) {
+        if (!line.looks.empty() && std::clamp(line.rank, 0, lowest_rank) == rank &&
+            is_measured(line) == measured) {
+            found.push_back(&line);
         }
     }
     return found;
@@ -34,22 +34,22 @@ struct PdfPen {
     std::uint32_t rgb;
 };
 
-bool is_of(const PdfPen& brush, const Polyline& strand, std::size_t piece) {
-    return (brush.looks >> strand.looks[piece] & 1U) != 0;
+bool is_of(const PdfPen& brush, const Polyline& line, std::size_t piece) {
+    return (brush.looks >> line.looks[piece] & 1U) != 0;
 }
 
 /// Draws neighbouring line segments of the pen's looks as one line. Earlier lines have round ends
 /// below later ones, which are cut off where the look changes: each look keeps its exact length,
 /// and bends have no gaps.
-void draw(PdfPage& page, const Polyline& strand, const PdfPen& brush) {
-    const auto& looks = strand.looks;
+void draw(PdfPage& page, const Polyline& line, const PdfPen& brush) {
+    const auto& looks = line.looks;
     for (std::size_t i = 0; i < looks.size();) {
         std::size_t end = i;
-        while (end < looks.size() && is_of(brush, strand, end)) {
+        while (end < looks.size() && is_of(brush, line, end)) {
             ++end;
         }
         if (end > i) {
-            page.draw(std::span{strand.points}.subspan(i, end - i + 1),
+            page.draw(std::span{line.points}.subspan(i, end - i + 1),
                       brush.radius_px,
                       brush.rgb,
                       {.round_begin = i == 0 || looks[i - 1] > looks[i],
@@ -59,9 +59,9 @@ void draw(PdfPage& page, const Polyline& strand, const PdfPen& brush) {
     }
 }
 
-void draw(PdfPage& page, const Strands& strands, const PdfPen& brush) {
-    for (const auto* strand : strands) {
-        draw(page, *strand, brush);
+void draw(PdfPage& page, const PolylineRefs& lines, const PdfPen& brush) {
+    for (const auto* line : lines) {
+        draw(page, *line, brush);
     }
 }
 
@@ -80,28 +80,28 @@ std::uint64_t looks_of(std::size_t classes, bool certain) {
 } // namespace
 
 void draw_unmeasured_edges(PdfPage& page,
-                           std::span<const Polyline> strands,
+                           std::span<const Polyline> lines,
                            const LineWidths& widths,
                            std::uint32_t rgb) {
     for (int rank = lowest_rank; rank >= 0; --rank) {
         draw(page,
-             strands_of(strands, rank, false),
+             lines_of(lines, rank, false),
              {unmeasured_edge_radius_px(widths, rank), ~std::uint64_t{0}, rgb});
     }
 }
 
 void draw_roads(PdfPage& page,
-                std::span<const Polyline> strands,
+                std::span<const Polyline> lines,
                 const LineWidths& widths,
                 const Palette& palette,
                 std::span<const std::uint32_t> class_colours) {
     for (int rank = lowest_rank; rank >= 0; --rank) {
         draw(page,
-             strands_of(strands, rank, false),
+             lines_of(lines, rank, false),
              {unmeasured_radius_px(widths, rank), ~std::uint64_t{0}, palette.unmeasured});
     }
     for (int rank = lowest_rank; rank >= 0; --rank) {
-        const auto measured = strands_of(strands, rank, true);
+        const auto measured = lines_of(lines, rank, true);
         for (const bool certain : {false, true}) {
             draw(page,
                  measured,

@@ -15,7 +15,7 @@ struct PlanePoint {
 };
 
 /// Position of a picture on its plane, in the plane's units (metres of EPSG:3857 in Mercator).
-struct PlanePlace {
+struct PlanePosition {
     double left, top; ///< of the top left corner of the top left pixel
     double per_px;    ///< side of a pixel
 };

@@ -210,7 +210,7 @@ double north_rad(const MapFrame& frame, const PixelPoint& at) {
     return std::isfinite(turn_rad) ? turn_rad : 0;
 }
 
-PlanePlace plane_place(const MapFrame& frame) {
+PlanePosition plane_position(const MapFrame& frame) {
     const double per_px = earth_radius_m / frame.px_per_rad;
     return {.left = frame.centre_x_rad * earth_radius_m - frame.centre.x * per_px,
             .top = frame.centre_y_rad * earth_radius_m + frame.centre.y * per_px,

@@ -66,7 +66,7 @@ double metres_per_px(const MapFrame& frame, double y_px);
 double north_rad(const MapFrame& frame, const PixelPoint& at);
 
 /// Returns the position of the frame's picture on its plane.
-PlanePlace plane_place(const MapFrame& frame);
+PlanePosition plane_position(const MapFrame& frame);
 
 /// Densifies a line so that its straight pieces follow the projected curve of straight pieces in
 /// degrees to a quarter of a pixel. In Mercator the line is unchanged, since pictures draw its

@@ -5,10 +5,10 @@
 
 namespace macadam {
 
-StatementCache::Loan::Loan(StatementCache& keeper, std::string sql)
+StatementCache::CachedStatement::CachedStatement(StatementCache& keeper, std::string sql)
     : keeper_{&keeper}, sql_{std::move(sql)}, statement_{keeper.taken(sql_)} {}
 
-StatementCache::Loan::~Loan() {
+StatementCache::CachedStatement::~CachedStatement() {
     statement_.reset();
     try {
         keeper_->idle_.insert_or_assign(std::move(sql_), std::move(statement_));

@@ -13,12 +13,12 @@ class StatementCache {
 public:
     /// Borrowed statement, which is reset when it is returned. A statement left in the middle of
     /// its rows would keep its read snapshot open.
-    class Loan {
+    class CachedStatement {
     public:
-        Loan(StatementCache& keeper, std::string sql);
-        Loan(const Loan&) = delete;
-        Loan& operator=(const Loan&) = delete;
-        ~Loan();
+        CachedStatement(StatementCache& keeper, std::string sql);
+        CachedStatement(const CachedStatement&) = delete;
+        CachedStatement& operator=(const CachedStatement&) = delete;
+        ~CachedStatement();
 
         Statement& operator*() { return statement_; }
         Statement* operator->() { return &statement_; }

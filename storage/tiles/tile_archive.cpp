@@ -105,8 +105,8 @@ TileSetCentre centre_of(const TileSetNote& note) {
     const auto& box = note.bounds;
     int zoom = note.max_zoom;
     const auto is_too_wide = [&](int at) {
-        const auto first = tile_place({box.north_deg, box.west_deg}, at);
-        const auto last = tile_place({box.south_deg, box.east_deg}, at);
+        const auto first = tile_position({box.north_deg, box.west_deg}, at);
+        const auto last = tile_position({box.south_deg, box.east_deg}, at);
         return std::max(last.x - first.x, last.y - first.y) > 2;
     };
     while (zoom > note.min_zoom && is_too_wide(zoom)) {

@@ -53,7 +53,7 @@ const ClassTable& classes() {
 /// In the middle of the town.
 TileId middle_tile() {
     const auto box = driven_town().info().box;
-    const auto place = tile_place(
+    const auto place = tile_position(
         {(box.south_deg + box.north_deg) / 2, (box.west_deg + box.east_deg) / 2}, tile_zoom);
     return {tile_zoom, std::uint32_t(place.x), std::uint32_t(place.y)};
 }

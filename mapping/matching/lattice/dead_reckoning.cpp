@@ -96,18 +96,19 @@ moments_of(const MatchObservations& positions, const Odometer& odometer, double 
     return moments;
 }
 
-struct Belief {
+struct StateEstimate {
     Vector mean;
     Square variance;
 };
 
-Belief prior(const Moment& first) {
+StateEstimate prior(const Moment& first) {
     const double sd_m = static_cast<double>(first.fix->own_sd_m);
-    Belief belief{Vector::Zero(), Square::Zero()};
-    belief.mean[east] = first.fix->at.east_m;
-    belief.mean[north] = first.fix->at.north_m;
-    belief.variance.diagonal() << 4 * sd_m * sd_m, 4 * sd_m * sd_m, 1, 1, sd_m * sd_m, sd_m * sd_m;
-    return belief;
+    StateEstimate estimate{Vector::Zero(), Square::Zero()};
+    estimate.mean[east] = first.fix->at.east_m;
+    estimate.mean[north] = first.fix->at.north_m;
+    estimate.variance.diagonal() << 4 * sd_m * sd_m, 4 * sd_m * sd_m, 1, 1, sd_m * sd_m,
+        sd_m * sd_m;
+    return estimate;
 }
 
 Square step_of(const Moment& to, double kept) {
@@ -124,11 +125,12 @@ double kept_of(const Moment& from, const Moment& to) {
     return std::exp(-std::abs(to.t_s - from.t_s) / slow_error_s);
 }
 
-Belief predicted(const Belief& belief, const Moment& from, const Moment& to, double sd_m) {
+StateEstimate
+predicted(const StateEstimate& estimate, const Moment& from, const Moment& to, double sd_m) {
     const double kept = kept_of(from, to);
     const double gone_m = to.travel_m - from.travel_m;
     const auto f = step_of(to, kept);
-    Belief next{f * belief.mean, f * belief.variance * f.transpose()};
+    StateEstimate next{f * estimate.mean, f * estimate.variance * f.transpose()};
     next.variance(east, east) += slip_variance * gone_m + 1e-6;
     next.variance(north, north) += slip_variance * gone_m + 1e-6;
     next.variance(along, along) += to.heading_variance + size_walk * gone_m;
@@ -138,38 +140,39 @@ Belief predicted(const Belief& belief, const Moment& from, const Moment& to, dou
     return next;
 }
 
-Belief with_fix(const Belief& belief, const Position& fix) {
+StateEstimate with_fix(const StateEstimate& estimate, const Position& fix) {
     Eigen::Matrix<double, 2, states> h = Eigen::Matrix<double, 2, states>::Zero();
     h(0, east) = h(1, north) = h(0, error_east) = h(1, error_north) = 1;
-    const Eigen::Vector2d off = Eigen::Vector2d{fix.at.east_m, fix.at.north_m} - h * belief.mean;
-    const Eigen::Matrix<double, states, 2> cross = belief.variance * h.transpose();
+    const Eigen::Vector2d off = Eigen::Vector2d{fix.at.east_m, fix.at.north_m} - h * estimate.mean;
+    const Eigen::Matrix<double, states, 2> cross = estimate.variance * h.transpose();
     Eigen::Matrix2d spread =
         h * cross + quick_error_m * quick_error_m * Eigen::Matrix2d::Identity();
     spread *= std::max(1.0, off.dot(spread.llt().solve(off)) / credible);
     const Eigen::Matrix<double, states, 2> gain = spread.llt().solve(cross.transpose()).transpose();
-    Belief next{belief.mean + gain * off, belief.variance - gain * cross.transpose()};
+    StateEstimate next{estimate.mean + gain * off, estimate.variance - gain * cross.transpose()};
     next.variance = (next.variance + next.variance.transpose()).eval() / 2;
     return next;
 }
 
-std::vector<Belief> smoothed(const std::vector<Moment>& moments) {
-    std::vector<Belief> beliefs;
-    beliefs.reserve(moments.size());
+std::vector<StateEstimate> smoothed(const std::vector<Moment>& moments) {
+    std::vector<StateEstimate> estimates;
+    estimates.reserve(moments.size());
     const double sd_m = static_cast<double>(moments.front().fix->own_sd_m);
     for (std::size_t k = 0; k < moments.size(); ++k) {
-        auto belief = k == 0 ? prior(moments[0])
-                             : predicted(beliefs.back(), moments[k - 1], moments[k], sd_m);
-        beliefs.push_back(moments[k].fix != nullptr ? with_fix(belief, *moments[k].fix) : belief);
+        auto estimate = k == 0 ? prior(moments[0])
+                               : predicted(estimates.back(), moments[k - 1], moments[k], sd_m);
+        estimates.push_back(moments[k].fix != nullptr ? with_fix(estimate, *moments[k].fix)
+                                                      : estimate);
     }
     for (auto k = moments.size() - 1; k-- > 0;) {
-        auto& belief = beliefs[k];
-        const auto next = predicted(belief, moments[k], moments[k + 1], sd_m);
+        auto& estimate = estimates[k];
+        const auto next = predicted(estimate, moments[k], moments[k + 1], sd_m);
         const auto f = step_of(moments[k + 1], kept_of(moments[k], moments[k + 1]));
-        const Square gain = next.variance.ldlt().solve(f * belief.variance).transpose();
-        belief.mean += gain * (beliefs[k + 1].mean - next.mean);
-        belief.variance += gain * (beliefs[k + 1].variance - next.variance) * gain.transpose();
+        const Square gain = next.variance.ldlt().solve(f * estimate.variance).transpose();
+        estimate.mean += gain * (estimates[k + 1].mean - next.mean);
+        estimate.variance += gain * (estimates[k + 1].variance - next.variance) * gain.transpose();
     }
-    return beliefs;
+    return estimates;
 }
 
 } // namespace
@@ -185,11 +188,11 @@ dead_reckoned(const MatchObservations& positions, const Odometer& odometer, doub
         return {};
     }
     const auto moments = moments_of(positions, odometer, spacing_m);
-    const auto beliefs = smoothed(moments);
+    const auto estimates = smoothed(moments);
     std::vector<DeadReckoned> places;
     for (std::size_t k = 0; k < moments.size(); ++k) {
-        const auto& x = beliefs[k].mean;
-        const auto& p = beliefs[k].variance;
+        const auto& x = estimates[k].mean;
+        const auto& p = estimates[k].variance;
         const double sd_m = std::sqrt(std::max(0.0, (p(east, east) + p(north, north)) / 2));
         if (moments[k].fix != nullptr || !(sd_m < worst_sd_m)) {
             continue;

@@ -17,18 +17,19 @@ struct Connection {
     std::vector<EdgeId> edges;
 };
 
-/// Assigns a leg without samples the lower confidence of its neighbours.
-void vouch_for_unseen(std::vector<Leg>& legs) {
-    for (std::size_t first = 0; first < legs.size(); ++first) {
-        if (legs[first].confidence > 0 || first == 0) {
+/// Assigns an interval without samples the lower confidence of its neighbours.
+void vouch_for_unseen(std::vector<PathInterval>& intervals) {
+    for (std::size_t first = 0; first < intervals.size(); ++first) {
+        if (intervals[first].confidence > 0 || first == 0) {
             continue;
         }
         auto seen = first;
-        while (seen + 1 < legs.size() && legs[seen].confidence == 0) {
+        while (seen + 1 < intervals.size() && intervals[seen].confidence == 0) {
             ++seen;
         }
         for (auto i = first; i < seen; ++i) {
-            legs[i].confidence = std::min(legs[first - 1].confidence, legs[seen].confidence);
+            intervals[i].confidence =
+                std::min(intervals[first - 1].confidence, intervals[seen].confidence);
         }
         first = seen;
     }
@@ -55,8 +56,8 @@ public:
             }
         }
         for (auto& path : paths_) {
-            path.legs.back().to_m = length_m(roads_, path.legs.back().edge);
-            vouch_for_unseen(path.legs);
+            path.intervals.back().to_m = length_m(roads_, path.intervals.back().edge);
+            vouch_for_unseen(path.intervals);
             settle(path);
             trim(path, roads_);
         }
@@ -67,25 +68,26 @@ private:
     void begin(std::size_t sample) {
         const auto& candidate = chain_[sample].candidate;
         paths_.push_back({{}, {}, {}, sample, sample});
-        paths_.back().legs.push_back({candidate.edge, 0, 0, 0, 0});
+        paths_.back().intervals.push_back({candidate.edge, 0, 0, 0, 0});
         place(sample);
     }
 
-    /// Places a sample on the last leg of the path.
+    /// Places a sample on the last interval of the path.
     void place(std::size_t sample) {
         auto& path = paths_.back();
-        auto& leg = path.legs.back();
+        auto& interval = path.intervals.back();
         path.positions.push_back(chain_[sample].position);
-        path.sample_m.push_back(leg.start_m + chain_[sample].candidate.offset_m - leg.from_m);
+        path.sample_m.push_back(interval.start_m + chain_[sample].candidate.offset_m -
+                                interval.from_m);
         path.last_sample = sample;
-        leg.confidence = std::max(leg.confidence, chain_[sample].confidence);
+        interval.confidence = std::max(interval.confidence, chain_[sample].confidence);
     }
 
     bool extend(std::size_t sample) {
         const auto last = paths_.back().last_sample;
         const auto skipped = sample - last - 1;
         if (skipped > longest_bad_run || (skipped == 0 && !chain_[sample].joined) ||
-            paths_.back().legs.back().start_m > longest_path_m) {
+            paths_.back().intervals.back().start_m > longest_path_m) {
             return false;
         }
         const auto between =
@@ -132,9 +134,9 @@ private:
         }
         case Transition::Kind::around:
             for (const auto edge : connection.edges) {
-                go_on(edge, length_m(roads_, paths_.back().legs.back().edge), 0);
+                go_on(edge, length_m(roads_, paths_.back().intervals.back().edge), 0);
             }
-            go_on(to.edge, length_m(roads_, paths_.back().legs.back().edge), 0);
+            go_on(to.edge, length_m(roads_, paths_.back().intervals.back().edge), 0);
             break;
         }
     }
@@ -150,13 +152,13 @@ private:
         }
     }
 
-    /// Ends the last leg at `end_m` of its edge and begins the next at `begin_m` of its own.
+    /// Ends the last interval at `end_m` of its edge and begins the next at `begin_m` of its own.
     void go_on(EdgeId edge, double end_m, double begin_m) {
-        auto& legs = paths_.back().legs;
-        auto& leg = legs.back();
-        leg.to_m = std::max(end_m, leg.from_m);
-        const double start_m = leg.start_m + leg.to_m - leg.from_m;
-        legs.push_back({edge, begin_m, begin_m, start_m, 0});
+        auto& intervals = paths_.back().intervals;
+        auto& interval = intervals.back();
+        interval.to_m = std::max(end_m, interval.from_m);
+        const double start_m = interval.start_m + interval.to_m - interval.from_m;
+        intervals.push_back({edge, begin_m, begin_m, start_m, 0});
     }
 
     const RoadNetwork& roads_;
@@ -171,8 +173,8 @@ private:
 } // namespace
 
 double length_m(const RoadPath& path) {
-    const auto& leg = path.legs.back();
-    return leg.start_m + leg.to_m - leg.from_m;
+    const auto& interval = path.intervals.back();
+    return interval.start_m + interval.to_m - interval.from_m;
 }
 
 std::vector<RoadPath> paths_of(const RoadNetwork& roads,

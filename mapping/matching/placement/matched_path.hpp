@@ -8,7 +8,7 @@
 namespace macadam {
 
 /// An interval of a path on one edge, in its direction of travel.
-struct Leg {
+struct PathInterval {
     EdgeId edge;
     double from_m; ///< offsets along the edge
     double to_m;
@@ -19,7 +19,7 @@ struct Leg {
 /// A continuous path on the network. It spans its first and last edges entirely, whatever part of
 /// them was driven.
 struct RoadPath {
-    std::vector<Leg> legs;
+    std::vector<PathInterval> intervals;
     std::vector<std::size_t> positions; ///< of its samples, in MatchObservations::all
     std::vector<double> sample_m;       ///< path positions of the samples
     std::size_t first_sample;           ///< index into the state sequence, as is last_sample

@@ -28,10 +28,10 @@ PathPosition placed(const RoadNetwork& roads,
             place.distance_m};
 }
 
-/// Removes the legs [first, last); the path continues at the same node.
+/// Removes the intervals [first, last); the path continues at the same node.
 void erase_legs(RoadPath& path, std::size_t first, std::size_t last) {
-    const double from_m = path.legs[first].start_m;
-    const double gone_m = path.legs[last].start_m - from_m;
+    const double from_m = path.intervals[first].start_m;
+    const double gone_m = path.intervals[last].start_m - from_m;
     for (auto& at_m : path.sample_m) {
         if (first == 0 || at_m > from_m + gone_m) {
             at_m -= gone_m;
@@ -39,15 +39,16 @@ void erase_legs(RoadPath& path, std::size_t first, std::size_t last) {
             at_m = std::min(at_m, from_m);
         }
     }
-    const auto legs = path.legs.begin();
-    const auto next = path.legs.erase(legs + static_cast<std::ptrdiff_t>(first),
-                                      legs + static_cast<std::ptrdiff_t>(last));
-    std::for_each(next, path.legs.end(), [&](Leg& leg) { leg.start_m -= gone_m; });
+    const auto intervals = path.intervals.begin();
+    const auto next = path.intervals.erase(intervals + static_cast<std::ptrdiff_t>(first),
+                                           intervals + static_cast<std::ptrdiff_t>(last));
+    std::for_each(
+        next, path.intervals.end(), [&](PathInterval& interval) { interval.start_m -= gone_m; });
 }
 
-/// Returns true if noise alone may have put `m` on the leg's edge.
-bool hardly_touched(const RoadNetwork& roads, const Leg& leg, double m) {
-    return m < std::min(touched_m, touched_share * length_m(roads, leg.edge));
+/// Returns true if noise alone may have put `m` on the interval's edge.
+bool hardly_touched(const RoadNetwork& roads, const PathInterval& interval, double m) {
+    return m < std::min(touched_m, touched_share * length_m(roads, interval.edge));
 }
 
 } // namespace
@@ -57,14 +58,15 @@ void settle_end(RoadPath& path,
                 CandidateIndex& plane,
                 const MatchObservations& positions,
                 std::size_t limit) {
-    const auto leg = path.legs.back();
-    const double edge_m = length_m(roads, leg.edge);
+    const auto interval = path.intervals.back();
+    const double edge_m = length_m(roads, interval.edge);
     const auto at = static_cast<std::size_t>(
-        std::lower_bound(path.sample_m.begin(), path.sample_m.end() - 1, leg.start_m) -
+        std::lower_bound(path.sample_m.begin(), path.sample_m.end() - 1, interval.start_m) -
         path.sample_m.begin());
-    PathPosition last{path.positions[at], path.sample_m[at] - leg.start_m + leg.from_m, 0};
+    PathPosition last{
+        path.positions[at], path.sample_m[at] - interval.start_m + interval.from_m, 0};
     for (auto i = last.position + 1; i < limit && last.offset_m < edge_m - end_m; ++i) {
-        const auto next = placed(roads, plane, positions, leg.edge, i);
+        const auto next = placed(roads, plane, positions, interval.edge, i);
         if (i > path.positions.back() && next.off_m > left_m) {
             break;
         }
@@ -75,7 +77,7 @@ void settle_end(RoadPath& path,
     if (last.position != path.positions.back()) {
         path.positions.push_back(last.position);
         path.sample_m.push_back(
-            std::max(path.sample_m.back(), leg.start_m + last.offset_m - leg.from_m));
+            std::max(path.sample_m.back(), interval.start_m + last.offset_m - interval.from_m));
     }
 }
 
@@ -84,13 +86,14 @@ void settle_begin(RoadPath& path,
                   CandidateIndex& plane,
                   const MatchObservations& positions,
                   std::size_t limit) {
-    const auto leg = path.legs.front();
-    const auto after =
-        std::upper_bound(path.sample_m.begin() + 1, path.sample_m.end(), leg.to_m - leg.from_m);
+    const auto interval = path.intervals.front();
+    const auto after = std::upper_bound(
+        path.sample_m.begin() + 1, path.sample_m.end(), interval.to_m - interval.from_m);
     const auto at = after - path.sample_m.begin() - 1;
-    PathPosition first{path.positions[static_cast<std::size_t>(at)], *(after - 1) + leg.from_m, 0};
+    PathPosition first{
+        path.positions[static_cast<std::size_t>(at)], *(after - 1) + interval.from_m, 0};
     for (auto i = first.position; i-- > limit + 1 && first.offset_m > end_m;) {
-        const auto next = placed(roads, plane, positions, leg.edge, i);
+        const auto next = placed(roads, plane, positions, interval.edge, i);
         if (i < path.positions.front() && next.off_m > left_m) {
             break;
         }
@@ -101,28 +104,29 @@ void settle_begin(RoadPath& path,
     if (first.position != path.positions.front()) {
         path.positions.insert(path.positions.begin(), first.position);
         path.sample_m.insert(path.sample_m.begin(),
-                             std::min(path.sample_m.front(), first.offset_m - leg.from_m));
+                             std::min(path.sample_m.front(), first.offset_m - interval.from_m));
     }
 }
 
 void trim(RoadPath& path, const RoadNetwork& roads) {
-    auto& legs = path.legs;
-    for (std::size_t i = 1; i + 2 < legs.size();) {
+    auto& intervals = path.intervals;
+    for (std::size_t i = 1; i + 2 < intervals.size();) {
         const bool there_and_back =
-            legs[i + 1].edge == reversed(legs[i].edge) && legs[i].from_m == 0;
-        if (there_and_back && legs[i].to_m < touched_m) {
+            intervals[i + 1].edge == reversed(intervals[i].edge) && intervals[i].from_m == 0;
+        if (there_and_back && intervals[i].to_m < touched_m) {
             erase_legs(path, i, i + 2);
         } else {
             ++i;
         }
     }
-    while (legs.size() > 1 &&
-           hardly_touched(roads, legs[0], legs[1].start_m - path.sample_m.front())) {
+    while (intervals.size() > 1 &&
+           hardly_touched(roads, intervals[0], intervals[1].start_m - path.sample_m.front())) {
         erase_legs(path, 0, 1);
     }
-    while (legs.size() > 1 &&
-           hardly_touched(roads, legs.back(), path.sample_m.back() - legs.back().start_m)) {
-        legs.pop_back();
+    while (
+        intervals.size() > 1 &&
+        hardly_touched(roads, intervals.back(), path.sample_m.back() - intervals.back().start_m)) {
+        intervals.pop_back();
     }
 }
 

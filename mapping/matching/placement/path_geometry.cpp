@@ -33,13 +33,14 @@ struct Corner {
 std::vector<Corner>
 corners_of(const RoadPath& path, const RoadNetwork& roads, CandidateIndex& plane) {
     std::vector<Corner> line;
-    for (const auto& leg : path.legs) {
-        const auto link = plane.line(link_of(leg.edge));
-        const double edge_m = length_m(roads, leg.edge);
-        const bool forward = is_forward(leg.edge);
-        const auto lane = is_drivable(roads, leg.edge) && is_drivable(roads, reversed(leg.edge))
-                              ? LaneKind::two_way
-                              : LaneKind::oneway;
+    for (const auto& interval : path.intervals) {
+        const auto link = plane.line(link_of(interval.edge));
+        const double edge_m = length_m(roads, interval.edge);
+        const bool forward = is_forward(interval.edge);
+        const auto lane =
+            is_drivable(roads, interval.edge) && is_drivable(roads, reversed(interval.edge))
+                ? LaneKind::two_way
+                : LaneKind::oneway;
         const auto offset_m = [&](const LinePoint& point) {
             return forward ? point.along_m : edge_m - point.along_m;
         };
@@ -47,15 +48,16 @@ corners_of(const RoadPath& path, const RoadNetwork& roads, CandidateIndex& plane
             const auto& a = forward ? link[i] : link[link.size() - 1 - i];
             const auto& b = forward ? link[i + 1] : link[link.size() - 2 - i];
             const double piece_m = offset_m(b) - offset_m(a);
-            const double from_m = std::max(offset_m(a), leg.from_m);
-            const double to_m = std::min(offset_m(b), leg.to_m);
+            const double from_m = std::max(offset_m(a), interval.from_m);
+            const double to_m = std::min(offset_m(b), interval.to_m);
             if (from_m > to_m) {
                 continue;
             }
             for (const double at_m : {from_m, to_m}) {
                 const double fraction = piece_m > 0 ? (at_m - offset_m(a)) / piece_m : 0;
-                line.push_back(
-                    {between(a.at, b.at, fraction), leg.start_m + at_m - leg.from_m, lane});
+                line.push_back({between(a.at, b.at, fraction),
+                                interval.start_m + at_m - interval.from_m,
+                                lane});
             }
         }
     }

@@ -127,7 +127,7 @@ private:
     }
 
     void forward(const std::vector<double>& nominal_m) {
-        auto belief = prior(nominal_m[0]);
+        auto estimate = prior(nominal_m[0]);
         auto place = place_at(line_, nominal_m[0]);
         for (std::size_t k = 0; k < epochs_.size(); ++k) {
             auto& passed = passed_[k];
@@ -136,12 +136,12 @@ private:
                 const auto before = place;
                 place = place_at(line_, nominal_m[k]);
                 passed.step = step_between(motions_[k], before, place);
-                belief.go(passed.step, noise_of(passed.step, motions_[k], epochs_[k]));
+                estimate.go(passed.step, noise_of(passed.step, motions_[k], epochs_[k]));
             }
-            passed.spread = belief.lead_spread();
-            passed.lead_m = belief.mean()[lead];
+            passed.spread = estimate.lead_spread();
+            passed.lead_m = estimate.mean()[lead];
             if (epochs_[k].fix) {
-                const auto taken = take_fix(belief, k, place, nominal_m[k]);
+                const auto taken = take_fix(estimate, k, place, nominal_m[k]);
                 passed.taken[0] = taken[0];
                 passed.taken[1] = taken[1];
                 passed.count = 2;
@@ -149,13 +149,13 @@ private:
             if constexpr (States == all_states) {
                 if (epochs_[k].gyro_rad) {
                     passed.taken[static_cast<std::size_t>(passed.count++)] =
-                        take_heading(belief, k, nominal_m[k]);
+                        take_heading(estimate, k, nominal_m[k]);
                 }
             }
         }
     }
 
-    std::array<Taken<States>, 2> take_fix(Forward<States>& belief,
+    std::array<Taken<States>, 2> take_fix(Forward<States>& estimate,
                                           std::size_t k,
                                           const PathPose& place,
                                           double nominal_m) const {
@@ -177,16 +177,16 @@ private:
                            epoch.fix->north_m - place.at.north_m};
         const double nominal_lead_m = nominal_m - epoch.travel_m;
         const double off_along_m = seen.east_m * ahead.east_m + seen.north_m * ahead.north_m +
-                                   nominal_lead_m - along.dot(belief.mean());
+                                   nominal_lead_m - along.dot(estimate.mean());
         const double off_across_m =
-            seen.east_m * right.east_m + seen.north_m * right.north_m - across.dot(belief.mean());
+            seen.east_m * right.east_m + seen.north_m * right.north_m - across.dot(estimate.mean());
         constexpr double quick = quick_error_m * quick_error_m;
         const double map =
             map_sd_m * map_sd_m * map_length_m / std::clamp(motions_[k].gone_m, 1.0, map_length_m);
-        return belief.take({along, across}, {off_along_m, off_across_m}, {quick, quick + map});
+        return estimate.take({along, across}, {off_along_m, off_across_m}, {quick, quick + map});
     }
 
-    Taken<States> take_heading(Forward<States>& belief, std::size_t k, double nominal_m) const {
+    Taken<States> take_heading(Forward<States>& estimate, std::size_t k, double nominal_m) const {
         constexpr double step_m = 1;
         const auto& epoch = epochs_[k];
         const double half_m = model_.heading_half_m;
@@ -196,13 +196,14 @@ private:
         Vector<States> h = Vector<States>::Zero();
         h[lead] = -bend_per_m;
         h[zero] = 1;
-        const double expected_rad = (before_rad + after_rad) / 2 +
-                                    bend_per_m * (epoch.travel_m + belief.mean()[lead] - nominal_m);
-        const double off_rad = std::remainder(expected_rad - *epoch.gyro_rad - belief.mean()[zero],
-                                              2 * std::numbers::pi);
+        const double expected_rad =
+            (before_rad + after_rad) / 2 +
+            bend_per_m * (epoch.travel_m + estimate.mean()[lead] - nominal_m);
+        const double off_rad = std::remainder(
+            expected_rad - *epoch.gyro_rad - estimate.mean()[zero], 2 * std::numbers::pi);
         const double alike = std::max(1.0, 2 * half_m / std::max(motions_[k].gone_m, 0.5));
         const double bend_sd_rad = bend_per_m * bend_sd_m;
-        return belief.take(
+        return estimate.take(
             h, off_rad, alike * (heading_sd_rad * heading_sd_rad + bend_sd_rad * bend_sd_rad));
     }
 

@@ -91,7 +91,7 @@ public:
     const std::string& highway() const { return highway_; }
 
 private:
-    StatementCache::Loan select_;
+    StatementCache::CachedStatement select_;
     std::optional<std::int64_t> way_id_;
     bool is_there_ = false;
     std::string name_;

@@ -73,7 +73,8 @@ std::string select_of(const SegmentFilter& filter, const char* columns, bool row
 /// Ways whose name contains the text in any case, in the order of their ids.
 std::vector<std::int64_t> ways_named(StatementCache& statements, const std::string& part) {
     const auto folded_part = case_folded(part);
-    StatementCache::Loan select{statements, "SELECT name, way_id FROM way WHERE name IS NOT NULL"};
+    StatementCache::CachedStatement select{statements,
+                                           "SELECT name, way_id FROM way WHERE name IS NOT NULL"};
     std::vector<std::int64_t> ways;
     std::string name;
     bool holds = false;
@@ -99,7 +100,7 @@ struct RowRange {
 /// Rows of segments that may intersect the box, in the order of keys, because SQLite would sort
 /// them with all their columns. If the rows are not in the order of keys, each range is of one way.
 std::vector<RowRange> rows_near(StatementCache& statements, const GeoBox& box, bool rows_in_order) {
-    StatementCache::Loan select{
+    StatementCache::CachedStatement select{
         statements,
         fmt::format("SELECT id, {} FROM rtree_segment_geom AS place {} WHERE place.maxx >= ?"
                     " AND place.minx <= ? AND place.maxy >= ? AND place.miny <= ?",
@@ -142,8 +143,8 @@ void each_segment_row(StatementCache& statements,
                       const VisitRow& visit) {
     const auto road = road_to(filter);
     const bool rows_in_order =
-        are_rows_in_order(*StatementCache::Loan{statements, select_rows_in_order});
-    StatementCache::Loan select{statements, select_of(filter, columns, rows_in_order)};
+        are_rows_in_order(*StatementCache::CachedStatement{statements, select_rows_in_order});
+    StatementCache::CachedStatement select{statements, select_of(filter, columns, rows_in_order)};
     const auto run = [&](const auto&... values) {
         if (is_scan(road, rows_in_order)) {
             RowCallback{visit}.run(*select, values...);

@@ -9,7 +9,7 @@ TEST(WorldPoint, LiesInTheTileThatTheGridNames) {
     const GeoPoint place{35.6590699, 139.7006793};
     const auto point = world_point(place);
     for (int zoom = 0; zoom <= 20; ++zoom) {
-        const auto expected = tile_place(place, zoom);
+        const auto expected = tile_position(place, zoom);
         EXPECT_EQ(
             tile_at(point, zoom),
             (TileId{std::uint8_t(zoom), std::uint32_t(expected.x), std::uint32_t(expected.y)}));

@@ -7,7 +7,7 @@ namespace {
 
 // The example of OpenStreetMap's wiki, "Slippy map tilenames": Hachiko's statue in Tokyo.
 TEST(TileGrid, NamesTheTileThatOpenStreetMapNames) {
-    const auto place = tile_place({35.6590699, 139.7006793}, 18);
+    const auto place = tile_position({35.6590699, 139.7006793}, 18);
     EXPECT_EQ(int(place.x), 232798);
     EXPECT_EQ(int(place.y), 103246);
 }
@@ -22,7 +22,7 @@ TEST(TileGrid, HasTheWholeMapInTheTileOfZoomZero) {
 
 TEST(TileGrid, ComesBackToThePlaceItTook) {
     const GeoPoint point{-33.8568, 151.2153};
-    const auto back = geo_point(tile_place(point, 22), 22);
+    const auto back = geo_point(tile_position(point, 22), 22);
     EXPECT_NEAR(back.lat_deg, point.lat_deg, 1e-10);
     EXPECT_NEAR(back.lon_deg, point.lon_deg, 1e-10);
 }

@@ -63,8 +63,8 @@ TEST(PlaneProjection, MeetsTheMercatorOfPictures) {
         EXPECT_NEAR(to_pixel(ours, place).y, to_pixel(theirs, place).y, 1e-6);
     }
     EXPECT_NEAR(metres_per_px(ours, 350), metres_per_px(theirs, 350), 1e-4);
-    EXPECT_NEAR(plane_place(ours).left, plane_place(theirs).left, 1e-4);
-    EXPECT_NEAR(plane_place(ours).top, plane_place(theirs).top, 1e-4);
+    EXPECT_NEAR(plane_position(ours).left, plane_position(theirs).left, 1e-4);
+    EXPECT_NEAR(plane_position(ours).top, plane_position(theirs).top, 1e-4);
 }
 
 TEST(PlaneProjection, RefusesWhatIsNoMapOfTwoAxes) {
@@ -100,7 +100,7 @@ TEST(ProjectedFrame, KnowsHowMuchGroundAPixelShows) {
     const auto utm33 = plane_projection("EPSG:32633");
     const auto frame = fitted_frame({14.9, 47.9, 15.1, 48.1}, {0, 0, 1000, 1000}, utm33.get());
     // On the middle meridian the scale is 0.9996.
-    EXPECT_NEAR(metres_per_px(frame, 500), plane_place(frame).per_px / 0.9996, 1e-3);
+    EXPECT_NEAR(metres_per_px(frame, 500), plane_position(frame).per_px / 0.9996, 1e-3);
 }
 
 TEST(ProjectedFrame, ShowsAllOfItsBox) {

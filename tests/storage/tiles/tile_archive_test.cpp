@@ -248,7 +248,7 @@ TEST(MbTiles, OfPicturesAreReadByGdalWhereTheyLie) {
     note.layers.clear();
     note.bounds.east_deg = 16; // beyond which GDAL shows nothing
     note.min_zoom = note.max_zoom = 10;
-    const auto place = tile_place({48.4375, 15.625}, 10);
+    const auto place = tile_position({48.4375, 15.625}, 10);
     const TileId middle{10, std::uint32_t(place.x), std::uint32_t(place.y)};
     TileArchive archive{folder / "a.mbtiles", note};
     archive.add(middle, grey_png(256, 77));

@@ -1,4 +1,4 @@
-#include "mapping/transfer/transferred_pieces.hpp"
+#include "mapping/transfer/transferred_intervals.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -31,7 +31,7 @@ auto key_of(const ChunkKey& chunk) {
     return std::tuple{chunk.way_id, !chunk.forward, chunk.number};
 }
 
-bool goes_on(const CarriedPiece& a, const CarriedPiece& b) {
+bool goes_on(const TransferredInterval& a, const TransferredInterval& b) {
     const double gap_m = b.correspondence.after_m.from_m - a.correspondence.after_m.to_m;
     if (gap_m < -step_back_m) {
         return false;
@@ -47,10 +47,10 @@ bool goes_on(const CarriedPiece& a, const CarriedPiece& b) {
 
 } // namespace
 
-std::vector<ChunkPieces> pieces_by_chunk(const std::vector<Pass>& passes,
-                                         const SegmentCorrespondences& correspondences) {
+std::vector<ChunkIntervals> intervals_by_chunk(const std::vector<Pass>& passes,
+                                               const SegmentCorrespondences& correspondences) {
     const double segment_length_m = correspondences.before().segment_length_m;
-    std::map<std::tuple<std::int64_t, bool, std::uint32_t>, ChunkPieces> by_chunk;
+    std::map<std::tuple<std::int64_t, bool, std::uint32_t>, ChunkIntervals> by_chunk;
     for (const auto& pass : passes) {
         const auto whole = stations_of(correspondences.before(), pass.segment);
         for (const auto& correspondence : correspondences.of(pass.segment)) {
@@ -65,25 +65,25 @@ std::vector<ChunkPieces> pieces_by_chunk(const std::vector<Pass>& passes,
                  static_cast<double>(pass.t_ms) + ms_per_s * late_s});
         }
     }
-    std::vector<ChunkPieces> chunks;
-    for (auto& [key, pieces] : by_chunk) {
-        std::ranges::stable_sort(pieces, {}, [](const CarriedPiece& piece) {
+    std::vector<ChunkIntervals> chunks;
+    for (auto& [key, intervals] : by_chunk) {
+        std::ranges::stable_sort(intervals, {}, [](const TransferredInterval& interval) {
             return std::tuple{
-                piece.t_ms, piece.pass->occurrence, piece.correspondence.after_m.from_m};
+                interval.t_ms, interval.pass->occurrence, interval.correspondence.after_m.from_m};
         });
-        chunks.push_back(std::move(pieces));
+        chunks.push_back(std::move(intervals));
     }
     return chunks;
 }
 
-std::vector<CarriedDrive> drives_of(const ChunkPieces& pieces) {
-    std::vector<CarriedDrive> drives;
+std::vector<TransferredDrive> drives_of(const ChunkIntervals& intervals) {
+    std::vector<TransferredDrive> drives;
     std::uint32_t next = 0;
-    for (const auto& piece : pieces) {
-        if (drives.empty() || !goes_on(drives.back().pieces.back(), piece)) {
-            drives.push_back({piece.pass->drive ? std::optional{next++} : std::nullopt, {}});
+    for (const auto& interval : intervals) {
+        if (drives.empty() || !goes_on(drives.back().intervals.back(), interval)) {
+            drives.push_back({interval.pass->drive ? std::optional{next++} : std::nullopt, {}});
         }
-        drives.back().pieces.push_back(piece);
+        drives.back().intervals.push_back(interval);
     }
     return drives;
 }

@@ -9,7 +9,7 @@
 namespace macadam {
 
 /// Part of a pass on an interval of a new segment.
-struct CarriedPiece {
+struct TransferredInterval {
     const Pass* pass; ///< the old pass
     ChunkKey old_chunk;
     SegmentCorrespondence correspondence;
@@ -18,20 +18,20 @@ struct CarriedPiece {
 };
 
 /// Intervals on one chunk of the new network, in order of time.
-using ChunkPieces = std::vector<CarriedPiece>;
+using ChunkIntervals = std::vector<TransferredInterval>;
 
 /// The intervals of one drive over a new chunk, in order of time.
-struct CarriedDrive {
+struct TransferredDrive {
     std::optional<std::uint32_t> number; ///< `std::nullopt`: its passes belong to no drive
-    std::vector<CarriedPiece> pieces;
+    std::vector<TransferredInterval> intervals;
 };
 
 /// Groups the intervals of passes by new chunk, in key order of the chunks.
-std::vector<ChunkPieces> pieces_by_chunk(const std::vector<Pass>& passes,
-                                         const SegmentCorrespondences& correspondences);
+std::vector<ChunkIntervals> intervals_by_chunk(const std::vector<Pass>& passes,
+                                               const SegmentCorrespondences& correspondences);
 
 /// Separates drives as driven_parts does: a drive has continuous stations, without a gap of more
 /// than 20 m or of much more time than the distance takes.
-std::vector<CarriedDrive> drives_of(const ChunkPieces& pieces);
+std::vector<TransferredDrive> drives_of(const ChunkIntervals& intervals);
 
 } // namespace macadam
