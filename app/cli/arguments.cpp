@@ -3,12 +3,12 @@
 #include "storage/text/spelling.hpp"
 
 #include "estimator/common/ascii.hpp"
+#include "estimator/common/exact_number.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <utility>
 
@@ -16,13 +16,11 @@ namespace macadam {
 namespace {
 
 double number_in(std::string_view name, std::string_view word) {
-    double number = 0;
-    const auto from = word.starts_with('+') ? word.substr(1) : word;
-    const auto [stop, error] = std::from_chars(from.data(), from.data() + from.size(), number);
-    if (error != std::errc{} || stop != from.data() + from.size()) {
+    const auto number = exact_number<double>(word.starts_with('+') ? word.substr(1) : word);
+    if (!number) {
         throw UsageError{fmt::format("{} is '{}', expected a number", name, word)};
     }
-    return number;
+    return *number;
 }
 
 void add_options(CLI::App& parser,
@@ -333,10 +331,8 @@ std::optional<std::int64_t> Arguments::integer(std::string_view name) const {
     if (!word) {
         return std::nullopt;
     }
-    std::int64_t number = 0;
-    const auto* const end = word->data() + word->size();
-    if (const auto [stop, error] = std::from_chars(word->data(), end, number);
-        error != std::errc{} || stop != end) {
+    const auto number = exact_number<std::int64_t>(*word);
+    if (!number) {
         throw UsageError{fmt::format("{} is '{}', expected a whole number", name, *word)};
     }
     return number;

@@ -42,14 +42,6 @@ void expect_no_picture_looks(const Arguments& arguments) {
     }
 }
 
-MapStyle parse_style(const Arguments& arguments, const Console& console) {
-    auto style = style_of(parse_look(arguments, store_file(arguments), console).look);
-    style.left_hand_traffic = arguments.flag("--left-hand");
-    style.labels = !arguments.flag("--no-labels");
-    style.min_passes = grey_below(arguments).value_or(style.min_passes);
-    return style;
-}
-
 TileSetNote note_of(const StoreInfo& info, const std::string& name, const PicturePlan& plan) {
     return {.name = name,
             .description = "Roughness of roads (IRI) by class",

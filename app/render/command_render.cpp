@@ -38,14 +38,6 @@ struct RenderOptions {
     std::optional<std::int64_t> since_ms; ///< changes since then instead of roughness
 };
 
-MapStyle parse_style(const Arguments& arguments, const Console& console) {
-    auto style = style_of(parse_look(arguments, store_file(arguments), console).look);
-    style.left_hand_traffic = arguments.flag("--left-hand");
-    style.labels = !arguments.flag("--no-labels");
-    style.min_passes = grey_below(arguments).value_or(style.min_passes);
-    return style;
-}
-
 /// Parses --compare-since. The map of changes has classes and colours of its own.
 std::optional<std::int64_t> parse_change(const Arguments& arguments) {
     const auto since_ms = parse_begin(arguments, "--compare-since");

@@ -1,5 +1,6 @@
 #include "app/render/style_options.hpp"
 
+#include "app/database/segment_options.hpp"
 #include "app/output/units_option.hpp"
 #include "estimator/common/error.hpp"
 #include "render/scene/style_check.hpp"
@@ -112,6 +113,14 @@ std::optional<int> grey_below(const Arguments& arguments) {
         throw UsageError{fmt::format("--grey-below is {}, expected 1 to {}", *passes, most)};
     }
     return passes ? std::optional{static_cast<int>(*passes)} : std::nullopt;
+}
+
+MapStyle parse_style(const Arguments& arguments, const Console& console) {
+    auto style = style_of(parse_look(arguments, store_file(arguments), console).look);
+    style.left_hand_traffic = arguments.flag("--left-hand");
+    style.labels = !arguments.flag("--no-labels");
+    style.min_passes = grey_below(arguments).value_or(style.min_passes);
+    return style;
 }
 
 void warn_of_look(const MapStyle& style, const Console& console) {

@@ -44,6 +44,9 @@ MapStyle style_of(MapLook look);
 /// \throws UsageError  for less than 1.
 std::optional<int> grey_below(const Arguments& arguments);
 
+/// Parses the style of a picture of STORE: parse_look, --left-hand, --no-labels and --grey-below.
+MapStyle parse_style(const Arguments& arguments, const Console& console);
+
 /// Warns if readers could misinterpret the look of a map.
 void warn_of_look(const MapStyle& style, const Console& console);
 

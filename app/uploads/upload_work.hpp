@@ -17,7 +17,7 @@ namespace macadam {
 /// \throws UsageError  for invalid ones.
 Arguments upload_arguments(std::vector<std::string> words);
 
-/// How uploads are worked out.
+/// Settings by which uploads are imported.
 struct UploadWork {
     std::filesystem::path store;
     Arguments arguments; ///< upload_arguments()

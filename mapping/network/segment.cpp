@@ -1,12 +1,12 @@
 #include "mapping/network/segment.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 
 namespace macadam {
@@ -47,15 +47,6 @@ line_between(const RoadNetwork& roads, const Link& link, double from_m, double t
     return line;
 }
 
-/// Parses a number; `std::nullopt` unless `text` is entirely a number.
-template <typename Number>
-std::optional<Number> number_in(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole = error == std::errc{} && end == text.data() + text.size();
-    return whole ? std::optional{number} : std::nullopt;
-}
-
 } // namespace
 
 std::string name_of(const SegmentKey& key) {
@@ -76,8 +67,8 @@ std::string name_of(const SegmentKey& key) {
 SegmentKey parse_segment_key(std::string_view text) {
     const auto sign = text.find_last_of("+-");
     if (sign != std::string_view::npos && text.size() - sign - 1 >= 4) {
-        const auto way_id = number_in<std::int64_t>(text.substr(0, sign));
-        const auto index = number_in<std::uint32_t>(text.substr(sign + 1));
+        const auto way_id = exact_number<std::int64_t>(text.substr(0, sign));
+        const auto index = exact_number<std::uint32_t>(text.substr(sign + 1));
         if (way_id && index) {
             return {*way_id, text[sign] == '+', *index};
         }

@@ -30,7 +30,7 @@ void draw_labels(Canvas& canvas,
                  const LabelInks& inks,
                  TypeSetter& setter);
 
-/// Returns the ink of a label, on the plane.
+/// Returns the mask of the letters of a label, at their position on the map.
 TextMask label_mask(const Label& label, TypeSetter& setter);
 
 /// Returns the halo within `radius_px` of ink, with soft edges.

@@ -1,6 +1,7 @@
 #include "storage/networks/ogr_reader.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/gdal/gdal_access.hpp"
 #include "storage/gdal/gdal_errors.hpp"
 #include "storage/gdal/layer_coordinates.hpp"
@@ -11,7 +12,6 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -253,13 +253,11 @@ private:
             return whole(feature.GetFieldAsDouble(columns_.id), feature);
         }
         const auto text = text_in(feature, columns_.id);
-        const char* const end = text.data() + text.size();
-        std::int64_t id = 0;
-        const auto [stop, error] = std::from_chars(text.data(), end, id);
-        if (error != std::errc{} || stop != end) {
+        const auto id = exact_number<std::int64_t>(text);
+        if (!id) {
             refuse_id(feature);
         }
-        return id;
+        return *id;
     }
 
     /// Converts an id from a real column, in which Shapefiles store long integers.

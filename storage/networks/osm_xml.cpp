@@ -1,6 +1,7 @@
 #include "storage/networks/osm_objects.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 
 #include <expat.h>
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <osmium/io/detail/read_write.hpp>
 
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -20,14 +20,6 @@
 
 namespace macadam {
 namespace {
-
-template <typename Number>
-std::optional<Number> number_in(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole = error == std::errc{} && end == text.data() + text.size();
-    return whole ? std::optional{number} : std::nullopt;
-}
 
 /// Value of an attribute; null if it is missing.
 const char* attribute(const XML_Char** attributes, std::string_view name) {
@@ -41,7 +33,7 @@ const char* attribute(const XML_Char** attributes, std::string_view name) {
 
 /// Coordinate in 1e-7 degrees; `std::nullopt` if it is invalid.
 std::optional<std::int32_t> place_e7(const char* text, double max_deg) {
-    const auto deg = text == nullptr ? std::nullopt : number_in<double>(text);
+    const auto deg = text == nullptr ? std::nullopt : exact_number<double>(text);
     return deg && std::abs(*deg) <= max_deg
                ? std::optional{static_cast<std::int32_t>(std::lround(*deg * Unpacked::per_deg))}
                : std::nullopt;
@@ -150,7 +142,7 @@ private:
     }
 
     static std::int64_t id_in(const char* text) {
-        const auto id = text == nullptr ? std::nullopt : number_in<std::int64_t>(text);
+        const auto id = text == nullptr ? std::nullopt : exact_number<std::int64_t>(text);
         if (!id) {
             throw InputError{
                 fmt::format("an id is '{}', expected a whole number", text == nullptr ? "" : text)};

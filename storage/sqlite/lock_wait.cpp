@@ -1,15 +1,15 @@
 #include "storage/sqlite/lock_wait.hpp"
 
+#include "estimator/common/exact_number.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -53,9 +53,7 @@ struct Lock {
 };
 
 std::int64_t whole_number(std::string_view text) {
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc{} && end == text.data() + text.size() ? number : -1;
+    return exact_number<std::int64_t>(text).value_or(-1);
 }
 
 /// Parses a line such as "1: POSIX  ADVISORY  WRITE 19780 fe:00:10952885 120 120"; `std::nullopt`

@@ -1,6 +1,7 @@
 #include "storage/tables/csv_table.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/files/hashed_bytes.hpp"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <set>
 
@@ -63,10 +63,8 @@ std::optional<std::int64_t> CsvRow::whole(std::string_view column) const {
     if (cell.empty()) {
         return std::nullopt;
     }
-    std::int64_t value = 0;
-    const auto* const end = cell.data() + cell.size();
-    if (const auto [stop, error] = std::from_chars(cell.data(), end, value);
-        error != std::errc{} || stop != end) {
+    const auto value = exact_number<std::int64_t>(cell);
+    if (!value) {
         throw InputError{
             fmt::format("{}: {} is {}, expected a whole number", where_, column, in_quotes(cell))};
     }

@@ -29,7 +29,7 @@ struct TripWalkConfig {
 
     std::size_t max_files = max_archive_files; ///< in an archive
 
-    /// Of the search for CSV files whose layout is detected, by files; ends it on request.
+    /// Shows the search for CSV files whose layout is detected, by files; ends it on request.
     Progress search{};
 };
 

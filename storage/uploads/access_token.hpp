@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// What the holder of a token may do: `upload` sends trips and sees and deletes his own; `read`
+/// Permission that a token gives: `upload` sends trips and sees and deletes its own; `read`
 /// reads a server that is closed to others; `operator_` may do all, with the trips of all.
 enum class TokenScope : std::uint8_t { upload, read, operator_ };
 

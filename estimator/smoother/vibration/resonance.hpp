@@ -11,7 +11,7 @@ struct Resonance {
     double damping = 0; ///< of critical
 };
 
-/// Returns what the sensor feels over what the body does: (1 + 2 d s) / (1 + 2 d s + s^2).
+/// Returns the sensor's motion relative to the body's: (1 + 2 d s) / (1 + 2 d s + s^2).
 inline std::complex<double> response(const Resonance& mount, double hz) {
     if (mount.hz <= 0) {
         return 1;

@@ -29,13 +29,13 @@ class ChunkTraces {
 public:
     explicit ChunkTraces(Database& database);
 
-    /// Aligned traces in the order of (trip hash, drive).
+    /// Returns the aligned traces in the order of (trip hash, drive).
     ///
     /// \param chunk  row of its first segment.
     /// \throws InputError  if a trace is invalid, because the database was modified.
     std::vector<AlignedTrace> placed(std::int64_t chunk);
 
-    /// Aligned traces of these drives, as if there were no others.
+    /// Returns the traces of these drives, aligned as if there were no others.
     std::vector<AlignedTrace> placed(std::int64_t chunk, const DriveSet& drives);
 
 private:

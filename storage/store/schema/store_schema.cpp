@@ -1,6 +1,7 @@
 #include "storage/store/schema/store_schema.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/hidden_tables.hpp"
 #include "storage/geopackage/qgis_style.hpp"
@@ -142,15 +143,13 @@ int expect_store(Database& database, const Schema& found) {
         refuse("is a GeoPackage, but not a Macadam database", "");
     }
     const auto text = meta(database, "version");
-    int version = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), version);
-    const bool is_number = error == std::errc{} && end == text.data() + text.size();
-    if (!is_number || version < oldest_store_version || version > store_version) {
+    const auto version = exact_number<int>(text);
+    if (!version || *version < oldest_store_version || *version > store_version) {
         throw InputError{fmt::format("{}: is a database of version {}, expected version {}: {}",
                                      database.file().string(),
                                      in_quotes(text),
                                      store_version,
-                                     version > store_version
+                                     version && *version > store_version
                                          ? "it was made by a newer version of Macadam"
                                          : "create it again with 'macadam init' and import its "
                                            "trips again")};

@@ -27,7 +27,7 @@ std::string mapping_toml(const NamedLog& first, const NamedLog& second);
 /// \param has_positions  from another file; vertical acceleration then suffices
 std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log, bool has_positions = false);
 
-/// As sure_mapping, for a file that was found rather than named: null also for results with a
+/// Returns sure_mapping() for a file that was found rather than named: null also for results with a
 /// column `iri`.
 std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log,
                                                     bool has_positions = false);

@@ -14,9 +14,9 @@ struct DetectedPositions {
     bool is_moving = false;         ///< for at least half of the time
 };
 
-/// Finds positions, speeds, courses and accuracies. Speeds and courses are compared with the way
-/// from position to position. They also tell latitude from longitude where the names of the two
-/// are exchanged.
+/// Finds positions, speeds, courses and accuracies. Speeds and courses are compared with the chords
+/// between positions. They also tell latitude from longitude where the names of the two are
+/// exchanged.
 ///
 /// \param time  null if the log has none.
 DetectedPositions detect_positions(const LogTable& table, const DetectedTime* time);

@@ -1,6 +1,7 @@
 #include "storage/trips/mappings/dbc.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/tables/text_lines.hpp"
 #include "storage/text/spelling.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <utility>
 
 namespace macadam {
@@ -32,12 +32,11 @@ void take_multiplexing(std::string_view word, DbcSignal& signal, const DbcTokens
     if (word.empty()) {
         return;
     }
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), value);
-    if (!word.starts_with('m') || error != std::errc{} || end != word.data() + word.size()) {
+    const auto value = exact_number<std::uint64_t>(word.substr(1));
+    if (!word.starts_with('m') || !value) {
         tokens.refuse("M, m and a number, or ':' behind the signal's name");
     }
-    signal.at = {{value, value}};
+    signal.at = {{*value, *value}};
 }
 
 DbcSignal signal_of(DbcTokens& tokens) {

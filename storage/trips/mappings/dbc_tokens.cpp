@@ -1,15 +1,14 @@
 #include "storage/trips/mappings/dbc_tokens.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <system_error>
 #include <utility>
 
 namespace macadam {
@@ -53,14 +52,12 @@ void DbcTokens::expect(char sign) {
 
 std::uint64_t DbcTokens::whole(std::uint64_t low, std::uint64_t high) {
     const auto text = word();
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size() || number < low ||
-        number > high) {
+    const auto number = exact_number<std::uint64_t>(text);
+    if (!number || *number < low || *number > high) {
         rest_ = {text.data(), static_cast<std::size_t>(rest_.data() + rest_.size() - text.data())};
         refuse(fmt::format("a whole number from {} to {}", low, high));
     }
-    return number;
+    return *number;
 }
 
 double DbcTokens::number() {

@@ -1,13 +1,13 @@
 #include "storage/trips/signals/can_frames.hpp"
 
 #include "estimator/common/ascii.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/foreign/time_parsing.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -28,17 +28,9 @@ std::string_view take_word(std::string_view& line) {
     return word;
 }
 
-std::optional<std::uint32_t> whole(std::string_view text, int base) {
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
-    return !text.empty() && error == std::errc{} && end == text.data() + text.size()
-               ? std::optional{number}
-               : std::nullopt;
-}
-
 /// Parses the identifier of a frame.
 bool set_id(std::string_view text, int base, bool is_extended, CanFrame& frame) {
-    const auto id = whole(text, base);
+    const auto id = exact_number<std::uint32_t>(text, base);
     if (!id || *id > (is_extended ? max_extended_id : max_standard_id)) {
         return false;
     }
@@ -51,7 +43,7 @@ bool set_id(std::string_view text, int base, bool is_extended, CanFrame& frame) 
 bool set_bytes(std::string_view rest, std::size_t count, int base, CanFrame& frame) {
     frame.size = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto byte = whole(take_word(rest), base);
+        const auto byte = exact_number<std::uint32_t>(take_word(rest), base);
         if (!byte || *byte > 0xFF || frame.size == max_size) {
             return false;
         }
@@ -68,7 +60,7 @@ bool set_packed(std::string_view digits, CanFrame& frame) {
             digits.remove_prefix(1);
             continue;
         }
-        const auto byte = whole(digits.substr(0, 2), 16);
+        const auto byte = exact_number<std::uint32_t>(digits.substr(0, 2), 16);
         if (!byte || digits.size() < 2 || frame.size == max_size) {
             return false;
         }
@@ -89,7 +81,7 @@ std::optional<double> date_s(std::string_view words, double utc_offset_s) {
     while (!trimmed(words).empty()) {
         const auto word = take_word(words);
         const auto lower = in_lower_case(word);
-        const auto number = whole(word, 10);
+        const auto number = exact_number<std::uint32_t>(word, 10);
         if (word.find(':') != std::string_view::npos) {
             clock = word;
         } else if (lower == "am" || lower == "pm") {
@@ -151,7 +143,7 @@ Line CanFrames::candump_line(std::string_view line) {
     }
     frame_.t_s = *time;
     dated_ = dated_ || *time >= first_utc_s;
-    if (id.size() == 8 && whole(id, 16).value_or(0) > max_extended_id) {
+    if (id.size() == 8 && exact_number<std::uint32_t>(id, 16).value_or(0) > max_extended_id) {
         return Line::other; // an error frame
     }
     if (!set_id(id, 16, id.size() == 8, frame_)) {
@@ -164,7 +156,8 @@ Line CanFrames::candump_line(std::string_view line) {
         }
         const bool is_length = length.size() > 2 && length.front() == '[' && length.back() == ']';
         const auto count =
-            whole(is_length ? length.substr(1, length.size() - 2) : "", 10).value_or(max_size + 1);
+            exact_number<std::uint32_t>(is_length ? length.substr(1, length.size() - 2) : "", 10)
+                .value_or(max_size + 1);
         return count <= max_size && set_bytes(line, count, 16, frame_) ? Line::frame
                                                                        : Line::damaged;
     }
@@ -226,7 +219,7 @@ Line CanFrames::asc_frame(std::string_view rest) {
     const bool is_extended = id.ends_with('x') || id.ends_with('X');
     id.remove_suffix(is_extended ? 1 : 0);
     const int base = is_hex_ ? 16 : 10;
-    const auto count = whole(take_word(rest), 16);
+    const auto count = exact_number<std::uint32_t>(take_word(rest), 16);
     return set_id(id, base, is_extended, frame_) && count && *count <= 15 &&
                    set_bytes(rest, std::min(*count, 8U), base, frame_)
                ? Line::frame
@@ -251,7 +244,7 @@ Line CanFrames::asc_fd_frame(std::string_view rest) {
     }
     const auto state = take_word(rest);
     const auto code = take_word(rest);
-    const auto count = whole(take_word(rest), 10);
+    const auto count = exact_number<std::uint32_t>(take_word(rest), 10);
     if (!set_id(id, base, is_extended, frame_) || flag.empty() || state.empty() || code.empty() ||
         !count || *count > max_size || !set_bytes(rest, *count, base, frame_)) {
         return Line::damaged;

@@ -11,9 +11,8 @@ namespace macadam {
 /// Each line of a dataset with times is a row, with the numbers of the datasets on these times.
 ///
 /// \param bytes  the whole file
-/// \throws InputError  "file: ..." if it is damaged, lacks a dataset, or if a dataset has not as
-/// many
-///                     rows as its times.
+/// \throws InputError  "file: ..." if it is damaged, lacks a dataset, or if a dataset and its
+///                     times differ in length.
 SignalRows read_hdf5(std::string_view bytes, const TableMapping& mapping, const std::string& name);
 
 } // namespace macadam
