@@ -154,7 +154,7 @@ int expect_store(Database& database, const Schema& found) {
                                          : "create it again with 'macadam init' and import its "
                                            "trips again")};
     }
-    return version;
+    return *version;
 }
 
 void check_store(Database& database) {
