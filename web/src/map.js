@@ -148,10 +148,12 @@ export function openMap(container, data, covered, tell) {
   });
   map.on('error', ({ error }) => tell.failed(error));
   let loaded = false;
+  let told;
   map.on('load', () => { loaded = true; show(); });
   map.on('idle', () => {
     container.dataset.ready = 'yes';
-    tell.idle();
+    clearTimeout(told);
+    told = setTimeout(tell.idle, 30); // after the picture is on the screen
     if (state.mode === 'change') compare();
   });
   map.on('dataloading', () => { delete container.dataset.ready; });
@@ -193,7 +195,7 @@ export function openMap(container, data, covered, tell) {
 
   return {
     show,
-    remove: () => { swipe?.close(); map.remove(); },
+    remove: () => { clearTimeout(told); swipe?.close(); map.remove(); },
     focus: () => map.getCanvas().focus(),
     markPicked: mark('picked'),
     markPointed: mark('pointed'),
@@ -226,7 +228,8 @@ export function openMap(container, data, covered, tell) {
       if (!loaded) return [];
       for (const feature of map.queryRenderedFeatures({ layers: roadLayers })) {
         const { properties } = feature;
-        found.set(properties.segment ?? JSON.stringify(properties), properties);
+        const { segment, name, highway, iri, iri_worst: worst, length_m: metres } = properties;
+        found.set(segment ?? `${name} ${highway} ${iri} ${worst} ${metres}`, properties);
       }
       return [...found.values()];
     },

@@ -228,10 +228,19 @@ async function listNames() {
         el('td', {}, iri(road.iri)), el('td', {}, roadLength(road.km))))))));
 }
 
+// The worker that keeps answers is fetched after the first picture, which needs the network for itself.
+let isKept = false;
+function keepAnswers() {
+  if (isKept || !isSecureContext || !navigator.serviceWorker) return;
+  isKept = true;
+  navigator.serviceWorker.register('service_worker.js').catch(() => {});
+}
+
 function showView() {
   if (!panel || !parts.map.dataset.ready) return;
   panel.drawView(map.inView(), map.hasSegments());
   routing?.idle();
+  setTimeout(keepAnswers, 1000);
 }
 
 // The map, or nothing where WebGL 2 is missing.
@@ -333,8 +342,6 @@ async function start() {
   addEventListener('offline', offline);
   addEventListener('online', clearNotice);
   if (!navigator.onLine) offline();
-  // After the first picture, which needs the network for itself.
-  if (isSecureContext && navigator.serviceWorker) setTimeout(() => navigator.serviceWorker.register('service_worker.js').catch(() => {}), 3000);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => map?.show());
 }
 

@@ -42,8 +42,11 @@ async function memory(browser) {
   return Math.max(...mb);
 }
 
+const browsers = []; // open ones, also after a failure
+
 async function open(server, hash = '') {
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args, timeout: 60_000 });
+  browsers.push(browser);
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
   await page.addInitScript(() => {
     new MutationObserver(() => { if (globalThis.drawnMs === undefined && document.querySelector('#map[data-ready]')) globalThis.drawnMs = performance.now(); })
@@ -91,15 +94,16 @@ const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.l
 
 async function measured(name, folder, hashes, turns) {
   const server = await serve(folder, { gzip: true });
+  const starts = [];
+  const frames = [];
+  let most = 0;
+  let failed = '';
   try {
-    const starts = [];
     for (let i = 0; i < turns; ++i) {
       const { browser, ms, bytes } = await open(server);
       starts.push({ ms, mb: bytes / 1e6 });
       await browser.close();
     }
-    const frames = [];
-    let most = 0;
     for (const hash of hashes) {
       const { browser, page } = await open(server, hash);
       if (hash === '#plain') await page.evaluate(() => globalThis.map.setZoom(14));
@@ -109,15 +113,17 @@ async function measured(name, folder, hashes, turns) {
       most = Math.max(most, await memory(browser));
       await browser.close();
     }
-    console.log(`| ${name} | ${(median(starts.map(({ ms }) => ms)) / 1000).toFixed(2)} s | ${median(starts.map(({ mb }) => mb)).toFixed(2)} MB | ${frames.join(', ')} | ${most.toFixed(0)} MB |`);
   } catch (error) {
-    console.log(`| ${name} | none in ${waits / 1000} s (${String(error.message).split('\n')[0]}) | | | |`);
+    failed = String(error.message).split('\n')[0];
   } finally {
+    await Promise.all(browsers.splice(0).map((each) => each.close()));
     server.close();
   }
+  const first = starts.length > 0 ? [`${(median(starts.map(({ ms }) => ms)) / 1000).toFixed(2)} s`, `${median(starts.map(({ mb }) => mb)).toFixed(2)} MB`] : [`none in ${waits / 1000} s`, ''];
+  console.log(`| ${[name, ...first, failed || frames.join(', '), most > 0 ? `${most.toFixed(0)} MB` : ''].join(' | ')} |`);
 }
 
-const { bounds: [west, south, east, north] } = JSON.parse(readFileSync(join(site, 'site.json'), 'utf8'));
+const { classes, bounds: [west, south, east, north] } = JSON.parse(readFileSync(join(site, 'site.json'), 'utf8'));
 const at = (zoom) => `#map=${zoom}/${(south + north) / 2}/${(west + east) / 2}`;
-await measured('the page', site, [at(11), at(13), at(15)], 3);
+await measured('the page', site, [at(11), at(13), at(15), `${at(15)}&c=${classes.map(({ name }) => name)}`], 3);
 if (geojson) await measured('one GeoJSON', plainPage(join(site, '../plain')), ['#plain'], 1);
