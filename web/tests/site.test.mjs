@@ -86,7 +86,7 @@ describe('a network of what tiles have shown', () => {
   });
 });
 
-describe('the page', { timeout: 280_000 }, () => {
+describe('the page', { timeout: 380_000 }, () => {
   test('opens the drawer with the numbers of query where the map is clicked', async () => {
     const { found, detail } = lonely();
     const { page, text, close } = await town.page(`#${at(detail)}`);
