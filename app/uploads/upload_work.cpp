@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,7 +31,7 @@ using Result = TripReport::Result;
 
 /// Logs that are imported together: fusing takes as long for one as for many.
 constexpr std::size_t batch_size = 20;
-constexpr int max_attempts = 3;
+constexpr int max_attempts = 50; // by UploadWork::running_since, in three hours at least
 
 /// What an import said of the trips of one upload.
 struct Reports {
@@ -111,9 +112,19 @@ void finish(Database& uploads, const fs::path& spool, const Upload& upload, Repo
     finish_upload(uploads, spool, upload, state, reason);
 }
 
+/// Returns how often a log may have been begun that is tried now.
+int max_begun(const UploadWork& work) {
+    constexpr int at_once = 1;
+    constexpr std::chrono::seconds pause{10};
+    return work.running_since
+               ? at_once + static_cast<int>(
+                               (std::chrono::steady_clock::now() - *work.running_since) / pause)
+               : std::numeric_limits<int>::max();
+}
+
 bool import_batch(Database& uploads, const UploadWork& work, const Console& console) {
     const auto spool = spool_of(work.store);
-    const auto taken = take_uploads(uploads, spool, batch_size);
+    const auto taken = take_uploads(uploads, spool, batch_size, max_begun(work));
     if (taken.empty()) {
         return false;
     }

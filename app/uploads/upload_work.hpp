@@ -6,8 +6,10 @@
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,9 @@ Arguments upload_arguments(std::vector<std::string> words);
 struct UploadWork {
     std::filesystem::path store;
     Arguments arguments; ///< upload_arguments()
+    /// Start of a program that may be killed and started again: then a log at which it ended twice
+    /// waits for 10 s, and each time for 10 s more.
+    std::optional<std::chrono::steady_clock::time_point> running_since{};
     /// Receives the report of each trip.
     std::function<void(const TripReport&)> tell{};
 };
@@ -28,7 +33,7 @@ struct UploadWork {
 /// Works out what waits in the queue of uploads: forgets the trips of one that is to be deleted, or
 /// imports a batch of logs as `macadam import` does. Each log leaves the spool once its trips are
 /// in the database. A kill at any moment loses no log and imports none twice; a log at which the
-/// program ended three times is refused.
+/// program ended 50 times is refused.
 ///
 /// \param uploads  open_uploads() of the database
 /// \returns whether there was anything to do.

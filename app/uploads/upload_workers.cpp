@@ -19,7 +19,9 @@ constexpr auto after_trouble = 5s;
 
 } // namespace
 
-UploadWorkers::UploadWorkers(const UploadWork& work, std::size_t count, const Console& console) {
+UploadWorkers::UploadWorkers(const UploadWork& asked, std::size_t count, const Console& console) {
+    auto work = asked;
+    work.running_since = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < count; ++i) {
         threads_.emplace_back(
             [this, work, &console] { this->work(work, console, stop_.get_token()); });

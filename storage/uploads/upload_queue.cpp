@@ -151,11 +151,13 @@ TakenUpload::~TakenUpload() {
 }
 
 std::vector<TakenUpload>
-take_uploads(Database& uploads, const fs::path& spool, std::size_t at_most) {
+take_uploads(Database& uploads, const fs::path& spool, std::size_t at_most, int max_begun) {
     std::vector<TakenUpload> taken;
     Transaction one{uploads, Transaction::Kind::write};
     auto row =
-        uploads.prepare(select_uploads + "WHERE state IN ('queued', 'working') ORDER BY number");
+        uploads.prepare(select_uploads + "WHERE state IN ('queued', 'working') AND attempts <= ?"
+                                         " ORDER BY attempts > 0, number");
+    row.bind(max_begun);
     std::vector<Upload> waiting;
     while (row.step()) {
         waiting.push_back(upload_in(row));

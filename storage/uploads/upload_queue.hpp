@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,9 +73,13 @@ private:
     int lock_;
 };
 
-/// Takes the oldest uploads that wait; one that was begun before, alone.
-std::vector<TakenUpload>
-take_uploads(Database& uploads, const std::filesystem::path& spool, std::size_t at_most);
+/// Takes the oldest uploads that wait. Those that were begun before come last and each alone,
+/// because they may have ended the program.
+/// \param max_begun  leaves those that were begun more often
+std::vector<TakenUpload> take_uploads(Database& uploads,
+                                      const std::filesystem::path& spool,
+                                      std::size_t at_most,
+                                      int max_begun = std::numeric_limits<int>::max());
 
 /// Notes that a trip of the road database came from an upload, unless it came from another.
 void add_trip_of(Database& uploads,

@@ -63,6 +63,17 @@ TEST(UploadQueue, GivesTheLogsOfADeadWorkerToAnotherOneByOne) {
     EXPECT_EQ(again[0].upload().attempts, 2);
 }
 
+TEST(UploadQueue, TakesNewLogsBeforeThoseThatMayHaveEndedTheProgram) {
+    World world;
+    world.send(World::upload('a'));
+    { const auto dead = take_uploads(world.uploads, world.spool, 10); }
+    world.send(World::upload('b'));
+    EXPECT_TRUE(take_uploads(world.uploads, world.spool, 10, -1).empty());
+    const auto taken = take_uploads(world.uploads, world.spool, 10, 0);
+    ASSERT_EQ(taken.size(), 1U);
+    EXPECT_EQ(taken[0].upload().sha256, std::string(64, 'b'));
+}
+
 TEST(UploadQueue, ForgetsTheLogButNotTheFate) {
     World world;
     world.send(World::upload('a'));
