@@ -115,10 +115,7 @@ section_writer(std::string_view format, RowWriter<ClassedSection>::Put put, Unit
 }
 
 std::string spoken(const SectionTotal& total, UnitSystem units) {
-    const auto length = [&](double length_m) {
-        return units == UnitSystem::us ? fmt::format("{:.2f} mi", length_m * mi_of_m)
-                                       : fmt::format("{:.2f} km", length_m / 1000);
-    };
+    const auto length = [&](double length_m) { return km_words(length_m / 1000, 2, units); };
     auto words =
         fmt::format("{}, of which {} measured", length(total.length_m), length(total.measured_m));
     if (total.excluded_m > 0) {

@@ -148,13 +148,10 @@ void refuse_beside_references(const Arguments& arguments) {
     }
 }
 
-/// Rejects --units and --language for data formats, which are always in English and mm/m.
+/// Rejects --language for rows, which are always in English.
 void refuse_for_programs(const Arguments& arguments) {
-    for (const auto* const option : {"--units", "--language"}) {
-        if (arguments.is_given(option)) {
-            throw UsageError{
-                fmt::format("with --against-reference, {} requires -o FILE.html or .pdf", option)};
-        }
+    if (arguments.is_given("--language")) {
+        throw UsageError{"with --against-reference, --language requires -o FILE.html or .pdf"};
     }
 }
 
@@ -163,12 +160,15 @@ struct ReferenceOutput {
     std::optional<std::filesystem::path> page;
     std::optional<std::filesystem::path> rows;
     std::string format; ///< of the rows
+    UnitSystem units;   ///< likewise; no preference: programs read the same for every user
 };
 
 ReferenceOutput parse_reference_output(const Arguments& arguments) {
     ReferenceOutput output{.page = {},
                            .rows = row_file_of(arguments, {".html", ".pdf"}),
-                           .format = row_format_of(arguments)};
+                           .format = row_format_of(arguments),
+                           .units = arguments.is_given("--units") ? parse_units(arguments)
+                                                                  : UnitSystem::si};
     if (const auto format = arguments.value("--format"); format == "html" || format == "pdf") {
         throw UsageError{fmt::format("--against-reference has --format table, csv or json, and "
                                      "-o FILE.{}",
@@ -187,9 +187,10 @@ ReferenceOutput parse_reference_output(const Arguments& arguments) {
 void write_rows(const ReferenceReport& report, const ReferenceOutput& to) {
     RowOutput output{to.rows};
     if (to.format == "table") {
-        print_words(reference_text(report));
+        print_words(reference_text(report, to.units));
     } else {
-        print(to.format == "json" ? reference_json(report) : reference_csv(report));
+        print(to.format == "json" ? reference_json(report, to.units)
+                                  : reference_csv(report, to.units));
     }
     output.commit();
 }

@@ -31,8 +31,11 @@ struct Level {
     SurveyScore score;
 };
 
-std::string bias_words(const Level& level) {
-    return std::isnan(level.score.bias) ? "-" : fmt::format("{:+.2f}", level.score.bias);
+std::string bias_words(const Level& level, UnitSystem units) {
+    const auto scale = iri_scale(2, units);
+    return std::isnan(level.score.bias)
+               ? "-"
+               : fmt::format("{:+.{}f}", scale.of_mm_per_m * level.score.bias, scale.decimals);
 }
 
 // clang-format off
@@ -41,67 +44,76 @@ const Columns<Level> range_columns{
     {"to", as::iri(0), [](auto& r) { return r.score.to_mm_per_m; }},
 };
 
-Columns<Level> score_columns(std::string_view heading) {
-    return {
+Columns<Level> score_columns(std::string_view heading, UnitSystem units) {
+    return in_units<Level>({
         {"", as::text, [](auto& r) { return r.name; }, {heading, "{:<18}"}},
         {"pieces", as::integer, [](auto& r) { return r.score.pieces; }, {"pieces", "{:>8}"}},
         {"mean_reference", as::iri(4), [](auto& r) { return r.score.mean_survey; },
          {"reference", "{:>10}", 2}},
         {"mean_cars", as::iri(4), [](auto& r) { return r.score.mean_trip; }, {"cars", "{:>8}", 2}},
         {"bias", as::iri(4), [](auto& r) { return r.score.bias; }},
-        {"", as::text, bias_words, {"bias", "{:>8}"}},
+        {"", as::text, [units](auto& r) { return bias_words(r, units); }, {"bias", "{:>8}"}},
         {"sd", as::iri(4), [](auto& r) { return r.score.sd; }},
         {"rmse", as::iri(4), [](auto& r) { return r.score.rmse; }, {"RMSE", "{:>8}", 2}},
         {"correlation", as::real(4), [](auto& r) { return r.score.correlation; },
          {"corr.", "{:>8}", 2}},
         {"coverage_90", as::real(4), [](auto& r) { return r.score.coverage; }},
         {"", as::real(0, "%"), [](auto& r) { return 100 * r.score.coverage; }, {"in 90 %", "{:>9}"}},
-    };
+    }, units);
 }
 // clang-format on
 
-std::string json_of(const SurveyScore& score) {
-    return json_object(score_columns(""), {"", score}).text();
+std::string json_of(const SurveyScore& score, UnitSystem units) {
+    return json_object(score_columns("", units), {"", score}).text();
 }
 
-std::vector<Level> levels_of(const ReferenceScores& scores) {
+std::vector<Level> levels_of(const ReferenceScores& scores, UnitSystem units) {
+    const auto words = [&](double mm_per_m) {
+        return units == UnitSystem::us
+                   ? fmt::format("{:.0f}", iri_scale(0, units).of_mm_per_m * mm_per_m)
+                   : fmt::format("{:g}", mm_per_m);
+    };
     std::vector<Level> levels;
     for (const auto& score : scores.by_level) {
         levels.push_back(
-            {fmt::format("{:g} to {:g}", score.from_mm_per_m, score.to_mm_per_m), score});
+            {fmt::format("{} to {}", words(score.from_mm_per_m), words(score.to_mm_per_m)), score});
     }
     return levels;
 }
 
-std::string json_of(const ReferenceScores& scores) {
-    auto columns = range_columns;
-    std::ranges::copy(score_columns(""), std::back_inserter(columns));
+std::string json_of(const ReferenceScores& scores, UnitSystem units) {
+    auto columns = in_units(range_columns, units);
+    std::ranges::copy(score_columns("", units), std::back_inserter(columns));
     JsonObject object;
-    object.add("all", JsonRaw{json_of(scores.all)})
-        .add("by_level", JsonRaw{json_rows(columns, levels_of(scores))});
+    object.add("all", JsonRaw{json_of(scores.all, units)})
+        .add("by_level", JsonRaw{json_rows(columns, levels_of(scores, units))});
     return object.text();
 }
 
-std::string json_of(const ComparedPieces& pieces) {
+std::string json_of(const ComparedPieces& pieces, UnitSystem units) {
     JsonObject object;
-    object.add("iri", JsonRaw{json_of(pieces.headline)})
-        .add("left", JsonRaw{json_of(pieces.left)})
-        .add("right", JsonRaw{json_of(pieces.right)});
+    object.add("iri", JsonRaw{json_of(pieces.headline, units)})
+        .add("left", JsonRaw{json_of(pieces.left, units)})
+        .add("right", JsonRaw{json_of(pieces.right, units)});
     return object.text();
 }
 
-std::string scores_text(const std::string& heading, const ReferenceScores& scores) {
+std::string
+scores_text(const std::string& heading, const ReferenceScores& scores, UnitSystem units) {
     if (scores.all.pieces == 0) {
         return {};
     }
-    auto levels = levels_of(scores);
+    auto levels = levels_of(scores, units);
     levels.push_back({"all", scores.all});
-    return fmt::format("\n{}", table_text(score_columns(heading), levels));
+    return fmt::format("\n{}", table_text(score_columns(heading, units), levels));
 }
 
-std::string pieces_text(const std::string& heading, const ComparedPieces& pieces) {
-    return scores_text(heading, pieces.headline) + scores_text(heading + ", left", pieces.left) +
-           scores_text(heading + ", right", pieces.right);
+std::string pieces_text(double length_m, const ComparedPieces& pieces, UnitSystem units) {
+    const auto heading = fmt::format(
+        "{}, {}", length_words(length_m, units), units == UnitSystem::us ? "in/mi" : "mm/m");
+    return scores_text(heading, pieces.headline, units) +
+           scores_text(heading + ", left", pieces.left, units) +
+           scores_text(heading + ", right", pieces.right, units);
 }
 
 // --------------------------------------------------------------- surveys, control sections, pairs
@@ -130,7 +142,8 @@ Cell of_side(const std::optional<SurveyPair>& side, double SurveyPair::*value) {
 }
 
 // clang-format off
-const Columns<ComparedSurvey> survey_columns{
+Columns<ComparedSurvey> survey_columns(UnitSystem units) {
+    return in_units<ComparedSurvey>({
     {"name", as::text, [](auto& r) { return r.name; }},
     {"date", as::day, [](auto& r) { return unless_empty(r.day); }},
     {"accuracy", as::real(4), [](auto& r) { return r.relative_sd; }},
@@ -138,8 +151,9 @@ const Columns<ComparedSurvey> survey_columns{
     {"segments", as::integer, [](auto& r) { return r.segments; }},
     {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
     {"alone_km", as::real(3, "km"), [](auto& r) { return r.alone_km; }},
-    {"hundred_metres", as::raw, [](auto& r) { return json_of(r.score); }},
-};
+    {"hundred_metres", as::raw, [units](auto& r) { return json_of(r.score, units); }},
+    }, units);
+}
 
 const Columns<ComparedControl> control_columns{
     {"name", as::text, [](auto& r) { return r.name; }},
@@ -178,17 +192,17 @@ const Columns<PairRow> pair_columns{
 
 // ---------------------------------------------------------------------------------------- text
 
-std::string surveys_text(const ReferenceReport& report) {
+std::string surveys_text(const ReferenceReport& report, UnitSystem units) {
     std::string text;
     for (const auto& survey : report.surveys) {
-        text += fmt::format("reference   '{}', {}: {:.2f} km in rows of {:.0f} m, accurate to "
-                            "{:g} %; {:.2f} km of it not driven\n",
+        text += fmt::format("reference   '{}', {}: {} in rows of {}, accurate to "
+                            "{:g} %; {} of it not driven\n",
                             printable_name(survey.name),
                             survey.day.empty() ? "undated" : survey.day,
-                            survey.km,
-                            survey.row_m,
+                            km_words(survey.km, 2, units),
+                            length_words(std::round(survey.row_m), units),
                             100 * survey.relative_sd,
-                            survey.alone_km);
+                            km_words(survey.alone_km, 2, units));
     }
     if (const auto span = span_of(report.passed); !span.empty()) {
         text += fmt::format("passes      {}\n", span);
@@ -197,23 +211,31 @@ std::string surveys_text(const ReferenceReport& report) {
     return gap.empty() ? text : text + gap + "\n";
 }
 
-std::string controls_text(const ReferenceReport& report) {
+std::string controls_text(const ReferenceReport& report, UnitSystem units) {
+    const auto [factor, decimals] = iri_scale(2, units);
     std::string text;
     for (const auto& control : report.controls) {
-        text += fmt::format(
-            "\ncontrol     '{}': known {:.2f}", printable_name(control.name), control.known);
+        text += fmt::format("\ncontrol     '{}': known {:.{}f}",
+                            printable_name(control.name),
+                            factor * control.known,
+                            decimals);
         if (control.cars.length_m <= 0) {
             text += ", no pass yet";
             continue;
         }
-        text += fmt::format(", cars {:.2f}, bias {:+.2f} ± {:.2f}",
-                            control.cars.iri,
-                            control.off,
-                            normal_interval_90 * control.off_sd);
+        text += fmt::format(", cars {:.{}f}, bias {:+.{}f} ± {:.{}f}",
+                            factor * control.cars.iri,
+                            decimals,
+                            factor * control.off,
+                            decimals,
+                            factor * normal_interval_90 * control.off_sd,
+                            decimals);
         if (control.drift) {
-            text += fmt::format(", {:+.2f} ± {:.2f} a year{}",
-                                control.drift->per_year,
-                                normal_interval_90 * control.drift->sd_per_year,
+            text += fmt::format(", {:+.{}f} ± {:.{}f} a year{}",
+                                factor * control.drift->per_year,
+                                decimals,
+                                factor * normal_interval_90 * control.drift->sd_per_year,
+                                decimals,
                                 control.drift->significant ? ": DRIFTS" : "");
         }
     }
@@ -222,36 +244,39 @@ std::string controls_text(const ReferenceReport& report) {
 
 } // namespace
 
-std::string reference_json(const ReferenceReport& report) {
-    const auto text_or_null = [](const std::string& text) {
-        return json_value(as::text, unless_empty(text));
+std::string reference_json(const ReferenceReport& report, UnitSystem units) {
+    // clang-format off
+    const Columns<ReferenceReport> columns{
+        {"surveys", as::raw,
+         [units](auto& r) { return json_rows(survey_columns(units), r.surveys); }},
+        {"passes_span", as::text, [](auto& r) { return unless_empty(span_of(r.passed)); }},
+        {"references_span", as::text, [](auto& r) { return unless_empty(span_of(r.surveyed)); }},
+        {"segment_length_m", as::metres(2), [](auto& r) { return r.segment_length_m; }},
+        {"segments", as::raw, [units](auto& r) { return json_of(r.segments, units); }},
+        {"hundred_metres", as::raw, [units](auto& r) { return json_of(r.hundreds, units); }},
+        {"control_sections", as::raw,
+         [units](auto& r) { return json_rows(in_units(control_columns, units), r.controls); }},
     };
-    JsonObject object;
-    object.add("surveys", JsonRaw{json_rows(survey_columns, report.surveys)})
-        .add("passes_span", text_or_null(span_of(report.passed)))
-        .add("references_span", text_or_null(span_of(report.surveyed)))
-        .add("segment_length_m", JsonNumber{report.segment_length_m, 2})
-        .add("segments", JsonRaw{json_of(report.segments)})
-        .add("hundred_metres", JsonRaw{json_of(report.hundreds)})
-        .add("control_sections", JsonRaw{json_rows(control_columns, report.controls)});
-    return object.text() + "\n";
+    // clang-format on
+    return json_object(in_units(columns, units), report).text() + "\n";
 }
 
-std::string reference_csv(const ReferenceReport& report) {
-    auto csv = csv_header(pair_columns);
+std::string reference_csv(const ReferenceReport& report, UnitSystem units) {
+    const auto columns = in_units(pair_columns, units);
+    auto csv = csv_header(columns);
     for (const auto& pair : report.segments.pairs) {
-        csv += csv_line(pair_columns, {"segment", report, pair});
+        csv += csv_line(columns, {"segment", report, pair});
     }
     for (const auto& pair : report.hundreds.pairs) {
-        csv += csv_line(pair_columns, {"100m", report, pair});
+        csv += csv_line(columns, {"100m", report, pair});
     }
     return csv;
 }
 
-std::string reference_text(const ReferenceReport& report) {
-    return surveys_text(report) +
-           pieces_text(fmt::format("{:g} m, mm/m", report.segment_length_m), report.segments) +
-           pieces_text("100 m, mm/m", report.hundreds) + controls_text(report) +
+std::string reference_text(const ReferenceReport& report, UnitSystem units) {
+    return surveys_text(report, units) +
+           pieces_text(report.segment_length_m, report.segments, units) +
+           pieces_text(100, report.hundreds, units) + controls_text(report, units) +
            "\n"
            "bias: cars minus reference; the interval is that of the cars\n";
 }

@@ -15,9 +15,13 @@ Cell calibrated(const CalibratedCar& car, double CarCalibration::*value) {
     return car.calibration ? Cell{(*car.calibration).*value} : Cell{};
 }
 
-std::string offset_words(const CalibratedCar& car) {
-    return car.calibration ? fmt::format("{:+.3f}", car.calibration->offset_um / um_per_mm)
-                           : " too few roads shared with other cars";
+std::string offset_words(const CalibratedCar& car, UnitSystem units) {
+    if (!car.calibration) {
+        return " too few roads shared with other cars";
+    }
+    const auto scale = iri_scale(3, units);
+    return fmt::format(
+        "{:+.{}f}", scale.of_mm_per_m * car.calibration->offset_um / um_per_mm, scale.decimals);
 }
 
 std::string sd_words(const CalibratedCar& car) {
@@ -42,7 +46,8 @@ std::string left_out_text(const CalibrationReport& report) {
 }
 
 // clang-format off
-const Columns<CalibratedCar> car_columns{
+Columns<CalibratedCar> car_columns(UnitSystem units) {
+    return in_units<CalibratedCar>({
     {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", "{:<34}"}},
     {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
     {"shared_passes", as::integer, [](auto& r) { return r.shared; }, {"shared", " {:>9}"}},
@@ -50,16 +55,18 @@ const Columns<CalibratedCar> car_columns{
      {"gain", " {:>7}", 3}},
     {"offset_mm_per_m", as::iri(3), [](auto& r) {
          return r.calibration ? Cell{r.calibration->offset_um / um_per_mm} : Cell{}; }},
-    {"", as::text, offset_words, {"offset", " {:>9}"}},
+    {"", as::text, [units](auto& r) { return offset_words(r, units); }, {"offset", " {:>9}"}},
     {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
     {"", as::text, sd_words, {"sd", " {:>9}"}},
     {"scatter", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::scatter); }},
     {"changes", as::json_only(as::raw), [](auto& r) { return changes_json(r.periods); }},
-};
+    }, units);
+}
 
-const Columns<CalibrationReport> report_columns{
+Columns<CalibrationReport> report_columns(UnitSystem units) {
+    return in_units<CalibrationReport>({
     {"generation", as::integer, [](auto& r) { return r.generation; }},
-    {"cars", as::raw, [](auto& r) { return json_rows(car_columns, r.cars); }},
+    {"cars", as::raw, [units](auto& r) { return json_rows(car_columns(units), r.cars); }},
     {"car_relative_sd", as::real(4), [](auto& r) { return r.car_relative_sd; }},
     {"trip_relative_sd", as::real(4), [](auto& r) { return r.components.trip_relative_sd; }},
     {"rest_relative_sd", as::real(4), [](auto& r) { return r.components.rest_relative_sd; }},
@@ -70,13 +77,14 @@ const Columns<CalibrationReport> report_columns{
     {"left_out_passes", as::integer, [](auto& r) { return r.left_out_readings; }},
     {"left_out_coverage", as::real(4), [](auto& r) { return left_out_coverage(r); }},
     {"reference_surveys", as::integer, [](auto& r) { return r.surveys; }},
-};
+    }, units);
+}
 // clang-format on
 
 } // namespace
 
-std::string text_of(const CalibrationReport& report) {
-    auto text = table_text(car_columns, report.cars);
+std::string text_of(const CalibrationReport& report, UnitSystem units) {
+    auto text = table_text(car_columns(units), report.cars);
     for (const auto& car : report.cars) {
         text += changes_text(car.vehicle, car.periods);
     }
@@ -88,13 +96,13 @@ std::string text_of(const CalibrationReport& report) {
         fmt::format("\n"
                     "between cars        {:.1f} %\n"
                     "between trips       {:.1f} %\n"
-                    "between passes      {:.1f} % and {:.2f} mm/m\n"
+                    "between passes      {:.1f} % and {}\n"
                     "common to all cars  {:.1f} % (possible bias of {})\n"
                     "from {} at {} where two or more cars passed within a year\n",
                     100 * report.car_relative_sd,
                     100 * components.trip_relative_sd,
                     100 * components.rest_relative_sd,
-                    components.rest_sd_mm_per_m,
+                    iri_words(components.rest_sd_mm_per_m, units),
                     100 * components.anchor_relative_sd,
                     report.surveys > 0 ? "the surveys" : "their mean",
                     counted(report.readings, "pass"),
@@ -102,12 +110,12 @@ std::string text_of(const CalibrationReport& report) {
     return text + components_text + left_out_text(report);
 }
 
-std::string json_of(const CalibrationReport& report) {
-    return json_object(report_columns, report).text() + "\n";
+std::string json_of(const CalibrationReport& report, UnitSystem units) {
+    return json_object(report_columns(units), report).text() + "\n";
 }
 
-std::string csv_of(const CalibrationReport& report) {
-    return rows_text(car_columns, report.cars, "csv");
+std::string csv_of(const CalibrationReport& report, UnitSystem units) {
+    return rows_text(car_columns(units), report.cars, "csv");
 }
 
 } // namespace macadam

@@ -4,6 +4,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/output/units_option.hpp"
 #include "app/store/calibration_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -32,12 +33,13 @@ CalibrationReport calibrated(const std::filesystem::path& file, bool keep, const
 
 void write_rows(const CalibrationReport& report,
                 std::string_view format,
+                UnitSystem units,
                 const std::optional<std::filesystem::path>& file) {
     RowOutput output{file};
     if (format == "table") {
-        print_words(text_of(report));
+        print_words(text_of(report, units));
     } else {
-        print(format == "json" ? json_of(report) : csv_of(report));
+        print(format == "json" ? json_of(report, units) : csv_of(report, units));
     }
     output.commit();
 }
@@ -53,7 +55,7 @@ void run_calibrate(const Arguments& arguments, const Console& console) {
     expect_operator(opened_reader(file, console, Audience::operator_),
                     "calibrations of single cars");
     const auto report = calibrated(file, keep, console);
-    write_rows(report, format, output);
+    write_rows(report, format, parse_units(arguments), output);
     const bool any = std::ranges::any_of(
         report.cars, [](const CalibratedCar& car) { return car.calibration.has_value(); });
     if (!any) {
@@ -77,7 +79,8 @@ constexpr std::array options{
     one_of("table|csv|json",
            {"--format", "NAME", "table, csv (a row for each car) or json.", "table"}),
     row_output_option,
-    json_option};
+    json_option,
+    units_option};
 
 } // namespace
 

@@ -134,11 +134,6 @@ std::string trips_of(const StoreInfo& info) {
                        counted(info.passes, "pass"));
 }
 
-std::string km_text(double km, int decimals, UnitSystem units) {
-    const bool us = units == UnitSystem::us;
-    return fmt::format("{:.{}f} {}", us ? 1000 * km * mi_of_m : km, decimals, us ? "mi" : "km");
-}
-
 std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
     auto text = fmt::format("network     {}, {} counting each direction, {} segments of about {}\n"
                             "trips       {}\n"
@@ -146,12 +141,12 @@ std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
                             "covered     {}, {} segments ({:.1f} % of the network)\n"
                             "privacy     {}; vehicle key {}\n",
                             info.settings.network_source,
-                            km_text(info.network_km, 1, units),
+                            km_words(info.network_km, 1, units),
                             info.segments,
                             length_words(info.settings.segment_length_m, units),
                             trips_of(info),
                             period_of(info),
-                            km_text(info.km, 2, units),
+                            km_words(info.km, 2, units),
                             info.segments_with_passes,
                             100 * share(info.km, info.network_km),
                             words_for(info.settings.privacy),
@@ -170,7 +165,7 @@ std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
     }
     for (const auto& [name, km] : info.classes) {
         text += fmt::format(
-            "{:<12}{}, {:.1f} %\n", name, km_text(km, 2, units), 100 * share(km, info.km));
+            "{:<12}{}, {:.1f} %\n", name, km_words(km, 2, units), 100 * share(km, info.km));
     }
     return text;
 }

@@ -2,6 +2,7 @@
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
 #include "app/database/lock_wait_messages.hpp"
+#include "app/output/units_option.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/single_trip.hpp"
 #include "app/pipeline/trip_preparation.hpp"
@@ -31,6 +32,7 @@ struct MatchOptions {
     LayerColumns columns;
     bool arcs;
     std::string format;
+    UnitSystem units;
 };
 
 MatchOptions parse_match(const Arguments& arguments) {
@@ -47,7 +49,8 @@ MatchOptions parse_match(const Arguments& arguments) {
                                      .highway = "",
                                      .oneway = arguments.value("--oneway-column").value_or("")},
                          .arcs = arguments.flag("--arcs"),
-                         .format = row_format_of(arguments)};
+                         .format = row_format_of(arguments),
+                         .units = parse_units(arguments)};
     if (options.output && !arguments.value("--format")) {
         const auto suffix = options.output->extension();
         if (suffix != ".csv" && suffix != ".json" && (suffix != ".geojson" || options.arcs)) {
@@ -111,10 +114,11 @@ void run_match(const Arguments& arguments, const Console& console) {
     for (const auto& warning : trip.warnings) {
         console.say(warning);
     }
-    console.say(matched_words(trace, trip.motion.odometer));
+    console.say(matched_words(trace, trip.motion.odometer, options.units));
 
-    const auto text = options.arcs ? arcs_text(trace, roads, options.format)
-                                   : passages_text(edge_traversals(trace), roads, options.format);
+    const auto text =
+        options.arcs ? arcs_text(trace, roads, options.format)
+                     : passages_text(edge_traversals(trace), roads, options.format, options.units);
     RowOutput output{options.output};
     print(text);
     output.commit();
@@ -135,6 +139,7 @@ constexpr std::array options{
     Option{
         "-o,--output", "FILE", "Write a .csv, .json or .geojson file instead of standard output."},
     json_option,
+    units_option,
     rare(in_group("line layers",
                   {"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"})),
     rare(in_group("line layers",

@@ -95,10 +95,10 @@ const Columns<Arc> arc_columns{
 // clang-format on
 
 /// Columns of an interval on a road; others lack the first of them in GeoJSON.
-Columns<Row> all_columns() {
+Columns<Row> all_columns(UnitSystem units) {
     auto columns = road_columns;
     columns.insert(columns.end(), interval_columns.begin(), interval_columns.end());
-    return columns;
+    return in_units(columns, units);
 }
 
 /// Returns the part of an edge that an interval covers.
@@ -116,10 +116,9 @@ std::vector<GeoPoint> line_of_piece(const MatchedInterval& piece, const RoadNetw
     return line;
 }
 
-std::string feature_of(const Row& row) {
-    return is_road(row) ? geojson_feature({},
-                                          line_of_piece(row.interval, row.roads),
-                                          json_object(all_columns(), row))
+std::string feature_of(const Row& row, const Columns<Row>& columns) {
+    return is_road(row) ? geojson_feature(
+                              {}, line_of_piece(row.interval, row.roads), json_object(columns, row))
                         : geojson_feature({}, {}, json_object(interval_columns, row));
 }
 
@@ -145,9 +144,14 @@ double paused_within_m(const MatchedInterval& piece, const Odometer& odometer) {
 
 } // namespace
 
-std::string
-passages_text(const MatchedTrace& passages, const RoadNetwork& roads, std::string_view format) {
-    return rows_text(all_columns(), rows_of(passages, roads), format, feature_of);
+std::string passages_text(const MatchedTrace& passages,
+                          const RoadNetwork& roads,
+                          std::string_view format,
+                          UnitSystem units) {
+    const auto columns = all_columns(units);
+    return rows_text(columns, rows_of(passages, roads), format, [&](const Row& row) {
+        return feature_of(row, columns);
+    });
 }
 
 std::string
@@ -155,7 +159,7 @@ arcs_text(const MatchedTrace& trace, const RoadNetwork& roads, std::string_view 
     return rows_text(arc_columns, arcs_of(trace, roads), format);
 }
 
-std::string matched_words(const MatchedTrace& trace, const Odometer& odometer) {
+std::string matched_words(const MatchedTrace& trace, const Odometer& odometer, UnitSystem units) {
     double on_m = 0;
     double off_m = 0;
     double gap_m = 0;
@@ -169,11 +173,11 @@ std::string matched_words(const MatchedTrace& trace, const Odometer& odometer) {
         sum_m += long_m;
         sure_m += piece.confidence * long_m;
     }
-    return fmt::format("{:.2f} km on roads{}, {:.2f} km off the network, {:.2f} km in gaps",
-                       on_m / 1000,
+    return fmt::format("{} on roads{}, {} off the network, {} in gaps",
+                       km_words(on_m / 1000, 2, units),
                        on_m > 0 ? fmt::format(" (confidence {:.2f})", sure_m / on_m) : "",
-                       off_m / 1000,
-                       gap_m / 1000);
+                       km_words(off_m / 1000, 2, units),
+                       km_words(gap_m / 1000, 2, units));
 }
 
 } // namespace macadam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/matching/map_match.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <string>
 #include <string_view>
@@ -11,8 +12,10 @@ namespace macadam {
 /// the network and each gap.
 /// \param passages  result of edge_traversals
 /// \param format    csv, json or geojson: a line for each traversal, no geometry for the rest
-std::string
-passages_text(const MatchedTrace& passages, const RoadNetwork& roads, std::string_view format);
+std::string passages_text(const MatchedTrace& passages,
+                          const RoadNetwork& roads,
+                          std::string_view format,
+                          UnitSystem units);
 
 /// Lists every pair of consecutive nodes as driven, for `match --arcs`.
 /// \param format  csv or json
@@ -20,6 +23,6 @@ std::string arcs_text(const MatchedTrace& trace, const RoadNetwork& roads, std::
 
 /// Summarises a match: "12.30 km on roads (confidence 0.98), 0.40 km off the network, 0.00 km in
 /// gaps".
-std::string matched_words(const MatchedTrace& trace, const Odometer& odometer);
+std::string matched_words(const MatchedTrace& trace, const Odometer& odometer, UnitSystem units);
 
 } // namespace macadam

@@ -123,6 +123,16 @@ std::string iri_words(double mm_per_m, UnitSystem units) {
                                    : fmt::format("{:.2f} mm/m", mm_per_m);
 }
 
+std::string km_words(double km, int decimals, UnitSystem units) {
+    return units == UnitSystem::us ? fmt::format("{:.{}f} mi", 1000 * km * mi_of_m, decimals)
+                                   : fmt::format("{:.{}f} km", km, decimals);
+}
+
+IriScale iri_scale(int decimals, UnitSystem units) {
+    return units == UnitSystem::us ? IriScale{in_per_mi_of_mm_per_m, std::max(0, decimals - 2)}
+                                   : IriScale{1, decimals};
+}
+
 UsColumn us_column(std::string_view name, const ColumnType& type, const ShownColumn& shown) {
     UsColumn us{name, type, shown.heading, shown.decimals};
     const auto* const found = std::ranges::find(conversions, type.unit, &Conversion::unit);

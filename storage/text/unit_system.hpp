@@ -29,6 +29,18 @@ constexpr ColumnType numbers_in(std::string_view unit, ColumnType type = text) {
 std::string length_words(double length_m, UnitSystem units);
 std::string iri_words(double mm_per_m, UnitSystem units);
 
+/// Formats kilometres for people: "12.3 km", "7.6 mi".
+std::string km_words(double km, int decimals, UnitSystem units);
+
+/// How roughness is written without its unit.
+struct IriScale {
+    double of_mm_per_m; ///< units of one mm/m
+    int decimals;
+};
+
+/// \param decimals  in mm/m; two fewer in in/mi
+IriScale iri_scale(int decimals, UnitSystem units);
+
 /// Column of SI units in units of the United States.
 struct UsColumn {
     std::string_view name; ///< says the unit: "iri_in_per_mi", "from_ft"; never freed

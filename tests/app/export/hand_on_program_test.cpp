@@ -138,6 +138,29 @@ TEST_F(HandingOn, AsAWorkbookHasSegmentsWorstSectionsAndADictionary) {
     EXPECT_TRUE(read_file(book) == read_file(file_of("export", "again.xlsx")));
 }
 
+TEST_F(HandingOn, InUsUnitsConcernsCalibrationsAndMatchesToo) {
+    // No car of this database shares 50 segments with others: there are rows, and exit status 1.
+    const auto cars = run("calibrate", {"--dry-run", "--format", "csv", "--units", "us"});
+    EXPECT_THAT(cars.out, StartsWith("vehicle,trips,shared_passes,gain,offset_in_per_mi,"));
+    const auto trip = fmt::format("{}/sample_data/gyor/gyor_q3_00.trip.csv", MACADAM_SOURCE_DIR);
+    const auto roads = (folder_ / "traced.gpkg").string();
+    ASSERT_EQ(run_macadam({"init", roads, "--trace", trip}).exit_status, 0);
+    const auto si = run_macadam({"match", trip, "--network", roads, "--format", "json"});
+    const auto us =
+        run_macadam({"match", trip, "--network", roads, "--format", "json", "--units", "us"});
+    EXPECT_THAT(si.err, HasSubstr(" km on roads"));
+    EXPECT_THAT(us.err, AllOf(HasSubstr(" mi on roads"), Not(HasSubstr(" km"))));
+    const auto longest = [](const Json& rows, const char* column) {
+        double most = 0;
+        for (const auto& row : rows) {
+            most = row.at(column).is_null() ? most : std::max(most, double(row.at(column)));
+        }
+        return most;
+    };
+    EXPECT_NEAR(
+        longest(Json::parse(us.out), "to_ft"), longest(Json::parse(si.out), "to_m") / 0.3048, 0.05);
+}
+
 TEST_F(HandingOn, InUsUnitsSaysTheUnitInTheNamesOfColumns) {
     const auto si = Json::parse(done("query", {"--way", "1", "--json"})).at(0);
     const auto us = Json::parse(done("query", {"--way", "1", "--json", "--units", "us"})).at(0);

@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -227,17 +228,23 @@ TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
     EXPECT_THAT(read_file(pdf).substr(0, 5), "%PDF-");
 }
 
-TEST_F(Reference, GivesProgramsMillimetresWhateverIsAskedFor) {
-    for (const auto* const file : {"a.json", "a.csv", ""}) {
-        std::vector<std::string> words{"report", store_, "--against-reference", "--unit", "in/mi"};
-        if (*file != '\0') {
-            words.insert(words.end(), {"-o", (folder_ / file).string()});
-        }
-        const auto run = run_macadam(words);
-        EXPECT_EQ(run.exit_status, 2) << file;
-        EXPECT_THAT(run.err,
-                    HasSubstr("with --against-reference, --units requires -o FILE.html or .pdf"));
-    }
+TEST_F(Reference, GivesRowsInUsUnits) {
+    ran({"import", store_, "--reference", truth_, "--date", "2026-05-01"});
+    const std::vector<std::string> report{"report", store_, "--against-reference"};
+    const auto rows = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), report.begin(), report.end());
+        return ran(words).out;
+    };
+    const auto si = json::parse(rows({"--json"}));
+    const auto us = json::parse(rows({"--json", "--units", "us"}));
+    EXPECT_NEAR(us.at("segment_length_ft"), double(si.at("segment_length_m")) / 0.3048, 0.01);
+    const auto score = [](const json& of) { return of.at("segments").at("iri").at("all"); };
+    EXPECT_NEAR(score(us).at("bias_in_per_mi"), 63.36 * double(score(si).at("bias")), 0.01);
+    EXPECT_FALSE(score(us).contains("bias"));
+    EXPECT_THAT(rows({"--format", "csv", "--units", "us"}),
+                AllOf(HasSubstr(",length_ft,"), HasSubstr(",reference_in_per_mi,")));
+    EXPECT_THAT(rows({"--units", "us"}),
+                AllOf(HasSubstr("328 ft, in/mi"), Not(HasSubstr("mm/m")), Not(HasSubstr(" km"))));
 }
 
 TEST_F(Reference, WatchesControlSections) {
