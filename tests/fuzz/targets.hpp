@@ -62,6 +62,10 @@ Answer store_bytes(std::string_view input);
 /// Runs SQL on a good store, as somebody who wishes its readers ill would, and reads it.
 Answer store_content(std::string_view input);
 
+/// Values of a database on a server: packed passes of a drive, a line as PostGIS sends it.
+Answer server_drive(std::string_view input);
+Answer server_line(std::string_view input);
+
 Answer geometry_blob(std::string_view input);
 Answer segment_key(std::string_view input);
 Answer utc_time(std::string_view input);

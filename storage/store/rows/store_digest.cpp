@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
+#include "storage/store/rows/digest_text.hpp"
 #include "storage/store/rows/event_row.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/schema/store_schema.hpp"
@@ -10,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -43,40 +45,12 @@ private:
     std::int64_t done_ = 0;
 };
 
-std::string text_of(const std::optional<std::int64_t>& value) {
-    return value ? fmt::format("{}", *value) : "-";
-}
-
-std::string columns_from(const Statement& row, int first, int last) {
-    std::string text;
+std::vector<std::optional<std::int64_t>> numbers_of(const Statement& row, int first, int last) {
+    std::vector<std::optional<std::int64_t>> numbers;
     for (int column = first; column < last; ++column) {
-        text += " " + text_of(row.known_integer(column));
+        numbers.push_back(row.known_integer(column));
     }
-    return text + "\n";
-}
-
-std::string state_line(const SegmentState& s) {
-    const auto known = [](const std::optional<IriUm>& um) {
-        return text_of(um ? std::optional<std::int64_t>{*um} : std::nullopt);
-    };
-    return fmt::format("state {} {} {} {} {} {} {} {:d} {} {} {} {} {} {} {} {} {}\n",
-                       name_of(s.segment),
-                       s.iri_um,
-                       s.sd_um,
-                       s.low_um,
-                       s.high_um,
-                       known(s.left_um),
-                       known(s.right_um),
-                       s.centre_only,
-                       s.validity,
-                       s.passes,
-                       s.vehicles,
-                       text_of(s.first_seen_ms),
-                       text_of(s.last_seen_ms),
-                       known(s.trend_um_per_year),
-                       known(s.trend_sd_um_per_year),
-                       text_of(s.change ? std::optional{s.change->utc_ms} : std::nullopt),
-                       known(s.change ? std::optional{s.change->um} : std::nullopt));
+    return numbers;
 }
 
 void add_passes(Sha256& hash, Database& database, Ticks& ticks) {
@@ -89,9 +63,10 @@ void add_passes(Sha256& hash, Database& database, Ticks& ticks) {
                                      pass_columns,
                                      are_rows_in_order(database) ? "pass.segment" : order_of_keys));
     while (select.step()) {
-        const auto* const kind = select.integer(2) != 0 ? "reference" : "pass";
-        hash.add(fmt::format("{} {} {}", kind, select.text(0), select.text(1)) +
-                 columns_from(select, 3, 3 + digest_column_count));
+        hash.add(digest_line_of_pass(select.integer(2) != 0,
+                                     select.text(0),
+                                     select.text(1),
+                                     numbers_of(select, 3, 3 + digest_column_count)));
         ticks.add();
     }
 }
@@ -105,7 +80,7 @@ void add_events(Sha256& hash, Database& database) {
     auto searched = database.prepare("SELECT trip.sha256 FROM event_search AS search"
                                      " CROSS JOIN trip ON trip.id = search.trip ORDER BY 1");
     while (searched.step()) {
-        hash.add(fmt::format("searched {}\n", searched.text(0)));
+        hash.add(digest_line_of_search(searched.text(0)));
     }
     auto select = database.prepare(fmt::format(
         "SELECT segment.segment, trip.sha256, occurrence, {} FROM event"
@@ -114,8 +89,8 @@ void add_events(Sha256& hash, Database& database) {
         event_columns,
         are_rows_in_order(database) ? "event.segment" : order_of_keys));
     while (select.step()) {
-        hash.add(fmt::format("event {} {}", select.text(0), select.text(1)) +
-                 columns_from(select, 2, 3 + event_column_count));
+        hash.add(digest_line_of_event(
+            select.text(0), select.text(1), numbers_of(select, 2, 3 + event_column_count)));
     }
 }
 
@@ -131,7 +106,7 @@ std::string digest_of(Database& database, const Progress& progress) {
                     record_columns,
                     are_rows_in_order(database) ? "segment.fid" : order_of_keys));
     while (select.step()) {
-        hash.add(state_line(*record_in(select).state));
+        hash.add(digest_line_of_state(*record_in(select).state));
         ticks.add();
     }
     add_events(hash, database);

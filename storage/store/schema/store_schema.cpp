@@ -3,9 +3,9 @@
 #include "estimator/common/error.hpp"
 #include "estimator/common/exact_number.hpp"
 #include "storage/geopackage/geopackage.hpp"
-#include "storage/geopackage/hidden_tables.hpp"
 #include "storage/geopackage/qgis_style.hpp"
 #include "storage/store/schema/network_rows.hpp"
+#include "storage/store/schema/new_store.hpp"
 #include "storage/store/schema/schema_check.hpp"
 #include "storage/store/schema/schema_sql.hpp"
 #include "storage/store/schema/store_marker.hpp"
@@ -68,13 +68,6 @@ void write_meta(Database& database,
     put(database, "privacy", name_of(settings.privacy));
 }
 
-/// Creates the indexes of tables that are filled before.
-void index_store_tables(Database& database) {
-    database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
-    database.run("CREATE INDEX way_name ON way(name)");
-    index_features(database, "segment");
-}
-
 } // namespace
 
 void make_store_tables(Database& database, PrivacyProfile privacy) {
@@ -99,29 +92,13 @@ void write_store(Database& database,
                  const StoreSettings& settings,
                  const std::string& key_id,
                  const Progress& progress) {
-    const auto* classes = class_table(settings.class_table);
-    if (classes == nullptr) {
-        throw InputError{
-            fmt::format("class table '{}', expected fhwa or five", settings.class_table)};
-    }
-    Transaction all{database, Transaction::Kind::write};
-    make_geopackage(database);
-    database.run(store_tables());
-    database.run(roughness_layer(settings.privacy));
-    add_style_table(database);
-    const auto network_hash = write_ways(database, roads);
-    const auto written = write_segments(database, roads, progress);
-    write_meta(database, roads, settings, network_hash, written);
-    put_key_id(database, key_id);
-
-    const auto box = extent_of(roads);
-    list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
-    list_features(database,
-                  {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
-    index_store_tables(database); // much faster after the rows were inserted
-    add_default_style(database, "roughness", {*classes});
-    hide_other_tables(database);
-    all.commit();
+    fill_new_store(database, settings.class_table, settings.privacy, [&] {
+        const auto network_hash = write_ways(database, roads);
+        const auto written = write_segments(database, roads, progress);
+        write_meta(database, roads, settings, network_hash, written);
+        put_key_id(database, key_id);
+        return extent_of(roads);
+    });
 }
 
 int expect_store(Database& database, const Schema& found) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// Tests whether the name of a database is the address of a PostgreSQL server:
+/// `postgresql://user@host:5432/database`, or with `postgres://`.
+bool is_server_address(std::string_view database);
+
+/// Checks that an address can be shown: in messages, in the history of a shell and in the list of
+/// processes.
+///
+/// \throws InputError  if it is malformed or holds a password; the message repeats no part of it.
+void expect_address_without_secrets(const std::string& address);
+
+/// Refuses the address of a server where only a file serves.
+///
+/// \throws InputError  for an address, with the way around.
+void expect_file(std::string_view database);
+
+} // namespace macadam

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct pg_conn;
+struct pg_result;
+
+namespace macadam {
+
+/// Row of a result: `std::nullopt` is NULL.
+using ServerRow = std::vector<std::optional<std::string>>;
+
+/// Connection to a PostgreSQL server. What the server says is shown shortened and with its control
+/// characters escaped.
+///
+/// \throws InputError  "ADDRESS: cause" from every call that fails.
+class ServerConnection {
+public:
+    /// Connects within 10 s unless the address or the environment say otherwise. Passwords come
+    /// from ~/.pgpass or the environment.
+    ///
+    /// \throws InputError  if the address holds a password, the server cannot be reached, refuses
+    ///                     the role, or is older than version 15.
+    explicit ServerConnection(std::string address);
+
+    const std::string& address() const { return address_; }
+
+    /// Tests whether the role may do everything, which no command needs.
+    bool is_superuser() const;
+
+    /// Runs statements of our own, without parameters or rows.
+    void run(const std::string& sql);
+
+    /// Runs one statement; values are parameters $1, $2, ..., never parts of the text.
+    std::vector<ServerRow> rows(const std::string& sql,
+                                const std::vector<std::optional<std::string>>& values = {});
+
+    /// First column of the only row.
+    std::int64_t number(const std::string& sql);
+
+    /// Begins a transaction. A reading one sees one moment until its end.
+    void begin(bool reads_only);
+
+    /// Commits. A server that gives up waiting for its standby reports success with a warning: then
+    /// a failover could lose the data.
+    ///
+    /// \throws InputError  that says so.
+    void commit();
+
+    /// Warnings of the server since the last call.
+    std::vector<std::string> take_warnings();
+
+    pg_conn* handle() const { return connection_.get(); }
+
+    /// Throws the error that the server reported last. \param result  null: of the connection.
+    [[noreturn]] void fail(std::string_view doing, const pg_result* result) const;
+
+private:
+    struct Finish {
+        void operator()(pg_conn* connection) const;
+    };
+    std::string address_;
+    std::unique_ptr<std::vector<std::string>> warnings_; ///< fixed address for the callback
+    std::unique_ptr<pg_conn, Finish> connection_;
+};
+
+} // namespace macadam

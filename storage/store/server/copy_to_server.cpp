@@ -1,0 +1,299 @@
+#include "estimator/common/error.hpp"
+#include "mapping/passes/chunk_trace.hpp"
+#include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/postgres/ewkb.hpp"
+#include "storage/store/rows/segment_row.hpp"
+#include "storage/store/rows/store_digest.hpp"
+#include "storage/store/server/server_digest.hpp"
+#include "storage/store/server/server_rows.hpp"
+#include "storage/store/server/server_schema.hpp"
+#include "storage/store/server/server_tables.hpp"
+#include "storage/store/server/store_copy.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr int columns_of(const ServerTable& table) {
+    return static_cast<int>(table.columns.size());
+}
+
+/// Chunk of a file: rows of its first and last segment.
+struct FileChunk {
+    std::int64_t first;
+    std::int64_t last;
+    std::int64_t first_seq;
+    std::int32_t cell;
+};
+
+class CopyToServer {
+public:
+    CopyToServer(Database& file,
+                 ServerConnection& server,
+                 const StoreConnection& store,
+                 const Progress& progress)
+        : file_{&file}, server_{&server}, store_{&store}, progress_{&progress} {}
+
+    void run() {
+        create_server_schema(*server_);
+        read_cells();
+        add_server_cells(*server_, cells_);
+        copy_meta();
+        for (const auto& table : server_tables()) {
+            const std::string_view name{table.name};
+            if (name == "segment") {
+                copy_segments(table);
+            } else if (name == "drive") {
+                copy_drives(table);
+            } else if (name == "segment_state") {
+                copy_states(table);
+            } else if (table.file_table != nullptr) {
+                copy_rows(table);
+            }
+        }
+        continue_row_numbers();
+        add_server_style(*server_, store_->classes());
+    }
+
+private:
+    void read_cells() {
+        auto select = file_->prepare("SELECT way_id, points FROM way");
+        while (select.step()) {
+            GeoPoint first{};
+            if (const auto points = select.blob(1); points.size() >= sizeof first) {
+                std::memcpy(&first, points.data(), sizeof first);
+            }
+            const auto cell = cell_of(first);
+            cells_.insert(cell);
+            cell_of_way_[select.integer(0)] = cell;
+        }
+    }
+
+    /// Version and format are of the file, not of its content.
+    void copy_meta() {
+        CopyWriter writer{*server_, copy_target(server_table("meta")), 2};
+        auto select = file_->prepare(
+            "SELECT key, value FROM meta WHERE key NOT IN ('format', 'version') ORDER BY key");
+        while (select.step()) {
+            writer.add(select.text(0), select.text(1));
+        }
+        writer.finish();
+    }
+
+    void copy_rows(const ServerTable& table) {
+        const auto columns =
+            table.file_columns != nullptr ? std::string{table.file_columns} : quoted_list(table);
+        auto select = file_->prepare(fmt::format("SELECT {} FROM {}", columns, table.file_table));
+        CopyWriter writer{*server_, copy_target(table), columns_of(table)};
+        while (select.step()) {
+            writer.begin_row();
+            for (int column = 0; column < columns_of(table); ++column) {
+                const std::string_view type{table.columns[static_cast<std::size_t>(column)].type};
+                if (select.is_null(column)) {
+                    writer.put(std::nullopt);
+                } else if (type.starts_with("bigint")) {
+                    writer.put(select.integer(column));
+                } else if (type.starts_with("bytea")) {
+                    writer.put(ServerBytes{select.blob(column)});
+                } else {
+                    writer.put(select.text(column));
+                }
+            }
+            writer.end_row();
+        }
+        writer.finish();
+    }
+
+    static std::string quoted_list(const ServerTable& table) {
+        std::string list;
+        for (const auto& column : table.columns) {
+            list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", column.name);
+        }
+        return list;
+    }
+
+    void copy_segments(const ServerTable& table) {
+        auto select = file_->prepare("SELECT fid, strip, segment, way_id, direction, seq, from_m,"
+                                     " to_m, geom FROM segment ORDER BY fid");
+        CopyWriter writer{*server_, copy_target(table), columns_of(table)};
+        std::vector<GeoPoint> line;
+        while (select.step()) {
+            const auto fid = select.integer(0), chunk = select.integer(1), seq = select.integer(5);
+            const auto way = cell_of_way_.find(select.integer(3));
+            put_line_of_geometry(select.blob(8), line);
+            if (chunks_.empty() || chunks_.back().first != chunk) {
+                chunks_.push_back({chunk, fid, seq, way != cell_of_way_.end() ? way->second : 0});
+            }
+            auto& of = chunks_.back();
+            if (way == cell_of_way_.end() || line.empty() || fid - chunk != seq - of.first_seq) {
+                throw InputError{fmt::format("{}: segment '{}' has no line, no way, or no place in "
+                                             "its chunk; the database was modified by another "
+                                             "program",
+                                             file_->file().string(),
+                                             select.text(2))};
+            }
+            of.last = fid;
+            writer.add(of.cell,
+                       fid,
+                       chunk,
+                       select.text(2),
+                       select.integer(3),
+                       select.text(4),
+                       seq,
+                       select.real(6),
+                       select.real(7),
+                       ServerBytes{ewkb_of(line)});
+            expect_no_stop(*server_, *progress_);
+        }
+        writer.finish();
+    }
+
+    /// Passes and trace of a drive over a chunk.
+    struct Drive {
+        std::vector<DrivePass> passes;
+        bool has_trace = false;
+        std::int64_t first_m = 0;
+        std::int64_t place_sd_mm = 0;
+        std::string iri;
+        std::optional<std::string> left;
+    };
+    using Drives = std::map<std::pair<std::int64_t, std::int64_t>, Drive>; ///< by trip, drive
+
+    void copy_drives(const ServerTable& table) {
+        auto passes = file_->prepare(
+            fmt::format("SELECT segment, trip, {} FROM pass WHERE segment >= ? AND segment <= ?",
+                        pass_columns));
+        auto traces = file_->prepare("SELECT trip, drive, first_m, place_sd_mm, iri, iri_left"
+                                     " FROM trace WHERE strip = ?");
+        CopyWriter writer{*server_, copy_target(table), columns_of(table)};
+        std::size_t done = 0;
+        for (const auto& chunk : chunks_) {
+            Drives drives;
+            for (passes.bind(chunk.first, chunk.last); passes.step();) {
+                const auto pass = pass_in(passes, 2, {});
+                const auto drive = pass.drive ? std::int64_t{*pass.drive} : -1;
+                drives[{passes.integer(1), drive}].passes.push_back(
+                    {static_cast<std::uint32_t>(passes.integer(0) - chunk.first), pass});
+            }
+            for (traces.bind(chunk.first); traces.step();) {
+                auto& drive = drives[{traces.integer(0), traces.integer(1)}];
+                drive.has_trace = true;
+                drive.first_m = traces.integer(2);
+                drive.place_sd_mm = traces.integer(3);
+                drive.iri = traces.blob(4);
+                if (!traces.is_null(5)) {
+                    drive.left = std::string{traces.blob(5)};
+                }
+            }
+            for (auto& [key, drive] : drives) {
+                write(writer, chunk, key, std::move(drive));
+            }
+            expect_no_stop(*server_, *progress_);
+            (*progress_)(++done, chunks_.size());
+        }
+        writer.finish();
+    }
+
+    static void
+    write(CopyWriter& writer, const FileChunk& chunk, const Drives::key_type& key, Drive drive) {
+        const auto known = [&](std::int64_t value) {
+            return drive.has_trace ? std::optional{value} : std::nullopt;
+        };
+        const auto count = static_cast<std::int32_t>(drive.passes.size());
+        const auto body = body_of(std::move(drive.passes));
+        writer.add(chunk.cell,
+                   chunk.first,
+                   key.first,
+                   key.second,
+                   count,
+                   ServerBytes{body},
+                   known(drive.first_m),
+                   known(drive.place_sd_mm),
+                   drive.has_trace ? std::optional{ServerBytes{drive.iri}} : std::nullopt,
+                   drive.left ? std::optional{ServerBytes{*drive.left}} : std::nullopt);
+    }
+
+    void copy_states(const ServerTable& table) {
+        auto select = file_->prepare(
+            fmt::format("SELECT {}, segment.fid FROM segment_state AS state CROSS JOIN segment"
+                        " ON segment.fid = state.fid ORDER BY segment.fid",
+                        record_columns));
+        constexpr int fid_column = 22; // after record_columns
+        CopyWriter writer{*server_, copy_target(table), columns_of(table)};
+        while (select.step()) {
+            const auto record = record_in(select);
+            write_server_state(writer,
+                               cell_of_way_.at(record.segment.key.way_id),
+                               select.integer(fid_column),
+                               *record.state,
+                               store_->classes());
+        }
+        writer.finish();
+    }
+
+    /// New rows get numbers after those copied.
+    void continue_row_numbers() {
+        for (const auto* const table : {"vehicle", "trip", "audit"}) {
+            server_->rows(fmt::format("SELECT setval(pg_get_serial_sequence('macadam.{0}', 'id'),"
+                                      " coalesce((SELECT max(id) FROM macadam.{0}), 0) + 1, false)",
+                                      table));
+        }
+    }
+
+    Database* file_;
+    ServerConnection* server_;
+    const StoreConnection* store_;
+    const Progress* progress_;
+    std::unordered_map<std::int64_t, std::int32_t> cell_of_way_;
+    std::set<std::int32_t> cells_;
+    std::vector<FileChunk> chunks_;
+};
+
+} // namespace
+
+StoreCopy copy_to_server(const std::filesystem::path& file,
+                         const std::string& address,
+                         const LockWaitPolicy& wait_policy,
+                         const Progress& progress) {
+    const auto store =
+        open_connection(file, Database::Access::read, wait_policy, Audience::operator_);
+    if (store->settings.privacy == PrivacyProfile::crowd) {
+        throw InputError{fmt::format("{}: is a crowd database, which works as a GeoPackage file "
+                                     "only so far",
+                                     file.string())};
+    }
+    ServerConnection server{address};
+    auto& database = store->database;
+    Transaction one_moment{database, Transaction::Kind::read};
+    server.begin(false);
+    CopyToServer{database, server, *store, progress}.run();
+    StoreCopy copy{.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
+                   .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
+                   .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
+                   .by_superuser = server.is_superuser()};
+    const auto copied =
+        digest_of_server(server, static_cast<std::uint32_t>(store->segments_per_chunk()), progress);
+    if (copied != copy.digest) {
+        throw InputError{fmt::format("{}: the copy has the digest {}, expected {}; nothing was "
+                                     "written",
+                                     address,
+                                     copied,
+                                     copy.digest)};
+    }
+    server.commit();
+    server.run("ANALYZE macadam.segment, macadam.drive, macadam.segment_state, macadam.trip,"
+               " macadam.way");
+    return copy;
+}
+
+} // namespace macadam

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "storage/postgres/server_connection.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace macadam {
+
+/// Computes the digest of a database on a server, the same as digest_of() of a file with the same
+/// content. Consistent only within a transaction. Memory holds one chunk at a time.
+std::string digest_of_server(ServerConnection& server,
+                             std::uint32_t segments_per_chunk,
+                             const Progress& progress);
+
+} // namespace macadam

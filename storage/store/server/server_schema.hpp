@@ -1,0 +1,38 @@
+#pragma once
+
+#include "estimator/common/geo.hpp"
+#include "mapping/style/iri_class.hpp"
+#include "storage/postgres/server_connection.hpp"
+
+#include <cstdint>
+#include <set>
+
+namespace macadam {
+
+/// Number of the last migration that this program knows.
+inline constexpr int server_schema_version = 1;
+
+/// Creates schema `macadam` with its tables, views, comments, rights and, as far as the role may
+/// create them, roles macadam_reader, macadam_importer and macadam_operator. Runs within the
+/// caller's transaction.
+///
+/// \throws InputError  if the schema exists, or PostGIS is not installed.
+void create_server_schema(ServerConnection& server);
+
+/// Creates the partitions of cells.
+void add_server_cells(ServerConnection& server, const std::set<std::int32_t>& cells);
+
+/// Stores the style with which QGIS shows view roughness, if the role may write where QGIS looks
+/// for it, in public.layer_styles.
+void add_server_style(ServerConnection& server, const ClassTable& classes);
+
+/// Checks that the server has a road database of a version that this program knows.
+///
+/// \throws InputError  if not.
+void expect_server_schema(ServerConnection& server);
+
+/// Cell of a way: the map tile of zoom 8 that holds its first node, as the number of its quadkey,
+/// 0 to 65,535.
+std::int32_t cell_of(const GeoPoint& first_node);
+
+} // namespace macadam

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "storage/sqlite/lock_wait_policy.hpp"
+#include "storage/store/connection/store_connection.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace macadam {
+
+/// Result of copying a database between engines.
+struct StoreCopy {
+    std::size_t trips = 0;
+    std::size_t passes = 0;
+    std::string digest;        ///< equal on both sides
+    bool by_superuser = false; ///< of the server
+};
+
+/// Copies a database from a file to a server, in one transaction: all of it or, on failure,
+/// nothing.
+///
+/// \throws InputError  if the server already has one, or the file is a crowd database.
+StoreCopy copy_to_server(const std::filesystem::path& file,
+                         const std::string& address,
+                         const LockWaitPolicy& wait_policy,
+                         const Progress& progress);
+
+/// Copies the moment of a database on a server to a new file. Its key is not on the server.
+///
+/// \throws InputError  if the file exists.
+StoreCopy copy_from_server(const std::string& address,
+                           const std::filesystem::path& file,
+                           const Progress& progress);
+
+/// Opens the moment of a database on a server for reading, through a private copy in the folder of
+/// temporary files. The copy is removed with the last user of the connection.
+std::shared_ptr<StoreConnection> open_server_moment(const std::string& address,
+                                                    const LockWaitPolicy& wait_policy,
+                                                    const Progress& progress);
+
+} // namespace macadam

@@ -1,0 +1,100 @@
+#include "support/program/postgres_server.hpp"
+
+#include "support/program/shell.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Newest server that Debian installed.
+fs::path server_programs() {
+    fs::path newest;
+    for (const auto& version : fs::directory_iterator{"/usr/lib/postgresql"}) {
+        if (fs::exists(version.path() / "bin/postgres") && version.path() > newest) {
+            newest = version.path();
+        }
+    }
+    return newest / "bin";
+}
+
+/// PostgreSQL refuses to run as root.
+std::string as_ordinary_user() {
+    return geteuid() == 0 ? "setpriv --reuid=nobody --regid=nogroup --clear-groups " : "";
+}
+
+void expect_success(const fs::path& folder, const std::string& command) {
+    const auto output = output_of(folder, command);
+    if (output.find("\nexit ") != std::string::npos) {
+        throw std::runtime_error{command + ": " + output};
+    }
+}
+
+} // namespace
+
+PostgresServer::PostgresServer() {
+    std::string name = "/tmp/macadam-pg-XXXXXX"; // paths of sockets have at most 107 bytes
+    if (mkdtemp(name.data()) == nullptr) {
+        throw std::runtime_error{"cannot create " + name};
+    }
+    folder_ = name;
+    const auto programs = server_programs().string();
+    if (geteuid() == 0) {
+        expect_success(folder_, fmt::format("chown nobody:nogroup {}", name));
+    }
+    const auto run = "cd / && unset PGHOST PGUSER PGDATABASE PGPASSWORD; " + as_ordinary_user();
+    expect_success(folder_,
+                   fmt::format("{} {}/initdb -D {}/data -U boss -A trust -E UTF8 --locale=C.UTF-8"
+                               " --no-sync --no-instructions",
+                               run,
+                               programs,
+                               name));
+    expect_success(
+        folder_,
+        fmt::format("({} timeout -k 5 110 {}/postgres -D {}/data -c listen_addresses="
+                    " -c unix_socket_directories={} -c fsync=off >/dev/null 2>&1 </dev/null &)",
+                    run,
+                    programs,
+                    name,
+                    name));
+    expect_success(folder_,
+                   fmt::format("(for i in $(seq 600); do {}/pg_isready -q -h {} && exit 0;"
+                               " sleep 0.1; done; exit 1)",
+                               programs,
+                               name));
+}
+
+PostgresServer::~PostgresServer() {
+    output_of(folder_,
+              fmt::format("kill -QUIT $(head -1 {0}/data/postmaster.pid); for i in $(seq 100); do"
+                          " [ -e {0}/.s.PGSQL.5432.lock ] || break; sleep 0.05; done",
+                          folder_.string()));
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+std::string PostgresServer::address(const std::string& database, const std::string& role) const {
+    return fmt::format("postgresql://{}@/{}?host={}", role, database, folder_.string());
+}
+
+std::string PostgresServer::new_database(const std::string& name) {
+    const auto psql = fmt::format(
+        "{}/psql -qX -v ON_ERROR_STOP=1 '{}' -c ", server_programs().string(), address());
+    output_of(folder_, psql + "'CREATE ROLE owner LOGIN'"); // exists from the second database on
+    expect_success(folder_, psql + fmt::format("'CREATE DATABASE {} OWNER owner'", name));
+    expect_success(folder_,
+                   fmt::format("{}/psql -qX -v ON_ERROR_STOP=1 '{}' -c 'CREATE EXTENSION postgis'",
+                               server_programs().string(),
+                               address(name)));
+    return address(name, "owner");
+}
+
+} // namespace macadam::testing

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace macadam::testing {
+
+/// PostgreSQL server of an ordinary user, for one test: on a socket in a folder of its own, with a
+/// superuser `boss`. It is stopped at the end of the test, and ends itself after 110 s.
+class PostgresServer {
+public:
+    /// Starts it; \throws std::runtime_error  with what it says, if it does not start.
+    PostgresServer();
+    PostgresServer(const PostgresServer&) = delete;
+    PostgresServer& operator=(const PostgresServer&) = delete;
+    ~PostgresServer();
+
+    /// Address of a database for a role.
+    std::string address(const std::string& database = "postgres",
+                        const std::string& role = "boss") const;
+
+    /// Creates an empty database with PostGIS, which belongs to role `owner` without further
+    /// rights. \returns its address for that role.
+    std::string new_database(const std::string& name);
+
+private:
+    std::filesystem::path folder_;
+};
+
+} // namespace macadam::testing
