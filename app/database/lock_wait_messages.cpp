@@ -1,5 +1,8 @@
 #include "app/database/lock_wait_messages.hpp"
 
+#include "storage/postgres/server_address.hpp"
+#include "storage/store/server/store_copy.hpp"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -22,6 +25,10 @@ RoadStore opened_store(const std::filesystem::path& file, const Console& console
 StoreReader
 opened_reader(const std::filesystem::path& file, const Console& console, Audience audience) {
     console.detail(fmt::format("reading {}", file.string()));
+    if (is_server_address(file.string())) {
+        return StoreReader{open_server_moment(
+            file.string(), wait_policy_for(file, console), console.progress("reading drives"))};
+    }
     return StoreReader::open(file, wait_policy_for(file, console), audience);
 }
 

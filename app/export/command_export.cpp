@@ -6,6 +6,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/selection.hpp"
+#include "app/database/server_store.hpp"
 #include "app/export/raster_tile_export.hpp"
 #include "app/export/site_export.hpp"
 #include "app/export/tile_export.hpp"
@@ -19,6 +20,7 @@
 #include "storage/exports/event_export.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/exports/qgis_project.hpp"
+#include "storage/postgres/server_address.hpp"
 #include "storage/tiles/tile_archive.hpp"
 
 #include <fmt/format.h>
@@ -192,7 +194,7 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
                                      fmt::join(suffixes, ", "))};
     }
     ExportOptions options{
-        .store = store_file(arguments),
+        .store = file_or_server(arguments),
         .output = output,
         .filter = parse_filter(arguments),
         .sections = parse_sections(arguments, false),
@@ -213,6 +215,7 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     }
     if (is_project(options)) {
         expect_project_alone(arguments);
+        expect_file(options.store.string()); // QGIS opens it by name
     }
     if (options.sections) {
         expect_sections_alone(options);
@@ -283,6 +286,7 @@ void run_export(const Arguments& arguments, const Console& console) {
         refuse_to_replace(options.output, inputs_of(options, arguments));
     }
     if (options.pictures) {
+        expect_file(options.store.string());
         export_picture_tiles(
             options.store, options.filter.box, options.output, *options.pictures, console);
         return;
@@ -325,7 +329,7 @@ void run_export(const Arguments& arguments, const Console& console) {
     console.say(fmt::format("{}: {}", name_of_output(options), counted(written, "segment")));
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{source_operand};
 constexpr std::array output_options{
     Option{"-o,--output",
            "FILE",

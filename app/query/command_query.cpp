@@ -5,6 +5,7 @@
 #include "app/database/empty_map_message.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/selection.hpp"
+#include "app/database/server_store.hpp"
 #include "app/output/excel_option.hpp"
 #include "app/output/units_option.hpp"
 #include "app/query/audit_output.hpp"
@@ -235,7 +236,7 @@ void run_query(const Arguments& arguments, const Console& console) {
     output.commit();
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{source_operand};
 constexpr std::array near_options{
     in_group("selection", {"--near", "LAT,LON", "Segments near a point, nearest first."}),
     in_group("selection", {"--radius", "METRES", "Search radius around --near.", "50"}),

@@ -2,6 +2,7 @@
 
 #include "app/cli/row_output.hpp"
 #include "app/database/selection.hpp"
+#include "app/database/server_store.hpp"
 #include "app/output/excel_option.hpp"
 #include "app/output/units_option.hpp"
 
@@ -144,7 +145,7 @@ GeoPoint parse_place(std::string_view name, const std::vector<double>& degrees) 
 }
 
 QueryOptions parse_query(const Arguments& arguments) {
-    QueryOptions options{.store = store_file(arguments),
+    QueryOptions options{.store = file_or_server(arguments),
                          .filter = parse_filter(arguments),
                          .near = parse_near(arguments),
                          .sections = parse_sections(arguments, true),

@@ -5,6 +5,7 @@
 #include "app/database/key_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/import/alignment_summary.hpp"
 #include "app/output/units_option.hpp"
 #include "app/query/audit_output.hpp"
@@ -252,7 +253,7 @@ void expect_one_result(const Arguments& arguments, std::string_view format) {
 }
 
 void run_info(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     const auto format = row_format_of(arguments);
     expect_one_result(arguments, format);
     const auto row_file = row_file_of(arguments);
@@ -268,7 +269,7 @@ void run_info(const Arguments& arguments, const Console& console) {
     output.commit();
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{source_operand};
 constexpr std::array options{
     one_of("all|classes|road-classes|cars|months|days|surveys|control-sections",
            {"--table", "NAME", "Print only this table, with all its rows.", "all"}),

@@ -179,18 +179,33 @@ TEST_F(Refusals, OfALatencyThatNoReceiverHasNameItsLine) {
                 HasSubstr("late.trip.csv:7: key 'gnss_latency_s' is '1e14'"));
 }
 
-TEST_F(Refusals, OfAServersAddressAreMisuse) {
+TEST_F(Refusals, OfAServersAddressWhereOnlyAFileServesSayHowToGetOne) {
     const std::string server = "postgresql://roads/all";
-    const std::vector<std::vector<std::string>> calls{{"info", server},
-                                                      {"import", server, good_},
-                                                      {"query", server, "--worst", "1"},
-                                                      {"export", server, "-o", "a.csv"},
+    const std::vector<std::vector<std::string>> calls{{"import", server, good_},
+                                                      {"forget", server, "--vehicle-id", "a"},
                                                       {"render", server, "-o", "a.png"},
                                                       {"report", server, "-o", "a.html"}};
     for (const auto& call : calls) {
         const auto run = run_macadam(call);
         EXPECT_EQ(run.exit_status, 2) << call.front();
-        EXPECT_THAT(run.err, HasSubstr("expected a .gpkg file"));
+        EXPECT_THAT(run.err,
+                    HasSubstr("'macadam copy postgresql://roads/all roads.gpkg' makes one"));
+    }
+    EXPECT_THAT(run_macadam({"info", "mysql://roads/all"}).err, HasSubstr("expected a .gpkg file"));
+}
+
+TEST_F(Refusals, OfAPasswordInAnAddressDoNotRepeatIt) {
+    const std::string server = "postgresql://me:s3cret@roads/all";
+    for (const std::vector<std::string>& call : {std::vector<std::string>{"info", server},
+                                                 {"import", server, good_},
+                                                 {"query", server},
+                                                 {"export", server, "-o", "a.csv"},
+                                                 {"copy", store_, server},
+                                                 {"copy", server, "a.gpkg"}}) {
+        const auto run = run_macadam(call);
+        EXPECT_EQ(run.exit_status, 2) << call.front();
+        EXPECT_THAT(run.err, HasSubstr("~/.pgpass"));
+        EXPECT_THAT(run.out + run.err, ::testing::Not(HasSubstr("s3cret")));
     }
 }
 

@@ -1,0 +1,96 @@
+#include "app/cli/server_commands.hpp"
+
+#include "app/database/lock_wait_messages.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/postgres/server_address.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/server/store_copy.hpp"
+#include "storage/text/json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+namespace macadam {
+namespace {
+
+/// Checks that one of both is a file and the other one an address that can be shown.
+void expect_file_and_server(const std::string& from, const std::string& to) {
+    try {
+        for (const auto& database : {from, to}) {
+            if (is_server_address(database)) {
+                expect_address_without_secrets(database);
+            }
+        }
+    } catch (const InputError& error) {
+        throw UsageError{error.what()};
+    }
+    if (is_server_address(from) == is_server_address(to)) {
+        throw UsageError{is_server_address(from)
+                             ? "FROM and TO are both on servers, expected one .gpkg file"
+                             : "FROM and TO are both files, expected one address "
+                               "postgresql://USER@HOST/DATABASE; cp copies files"};
+    }
+}
+
+std::string json_of(const StoreCopy& copy) {
+    JsonObject object;
+    object.add("trips", static_cast<std::int64_t>(copy.trips))
+        .add("passes", static_cast<std::int64_t>(copy.passes))
+        .add("digest", copy.digest);
+    return object.text() + "\n";
+}
+
+void run_copy(const Arguments& arguments, const Console& console) {
+    const auto& from = arguments.operand("FROM");
+    const auto& to = arguments.operand("TO");
+    expect_file_and_server(from, to);
+    const bool to_server = is_server_address(to);
+    const auto progress = console.progress("copying");
+    const auto copy = to_server ? copy_to_server(from, to, wait_policy_for(from, console), progress)
+                                : copy_from_server(from, to, progress);
+    if (copy.by_superuser) {
+        console.warn("connected as a superuser of the server: a role that owns its database is "
+                     "enough");
+    }
+    if (arguments.flag("--json")) {
+        print(json_of(copy));
+    } else {
+        print_words(fmt::format("{}: {}, {}; digest on both sides: {}\n",
+                                to,
+                                counted(copy.trips, "trip"),
+                                counted(copy.passes, "pass"),
+                                copy.digest));
+    }
+    const auto key = key_file_of(to_server ? from : to).string();
+    console.say(to_server ? fmt::format("{}: keep this key, it was not copied", key)
+                          : fmt::format("{}: put the key of the first database here before you "
+                                        "import trips",
+                                        key));
+}
+
+constexpr std::array operands{
+    Operand{"FROM", "The road database: a .gpkg file, or postgresql://USER@HOST/DATABASE."},
+    Operand{"TO", "The other one: an address of a database without one, or a new .gpkg file."}};
+constexpr std::array options{Option{"--json", "", "Print the result as one JSON object."}};
+
+} // namespace
+
+const Command copy_command{
+    .name = "copy",
+    .summary = "Copy a database between a file and a PostgreSQL server",
+    .about =
+        "Copies all content and verifies this with the digest ('macadam info --digest'), which "
+        "is computed on both\nsides. All is one transaction: on any failure there is no copy. "
+        "The server needs PostgreSQL 15 and PostGIS;\nQGIS shows its view macadam.roughness. "
+        "Passwords come from ~/.pgpass (docs/reference/postgresql.md).",
+    .example = "  macadam copy roads.gpkg postgresql://me@db.example.org/roads\n"
+               "  macadam copy postgresql://me@db.example.org/roads back.gpkg",
+    .operands = operands,
+    .options = options,
+    .run = run_copy};
+
+} // namespace macadam
