@@ -45,6 +45,7 @@ public:
         : file_{&file}, server_{&server}, store_{&store}, progress_{&progress} {}
 
     void run() {
+        all_ = static_cast<std::size_t>(file_->number("SELECT count(*) FROM segment"));
         create_server_schema(*server_);
         read_cells();
         add_server_cells(*server_, cells_);
@@ -153,9 +154,18 @@ private:
                        select.real(6),
                        select.real(7),
                        ServerBytes{ewkb_of(line)});
-            expect_no_stop(*server_, *progress_);
+            report();
         }
         writer.finish();
+    }
+
+    /// Counts segments: each is written, then its drives are.
+    void report(std::size_t segments = 1) {
+        expect_no_stop(*server_, *progress_);
+        done_ += segments;
+        if (constexpr std::size_t step = 1000; done_ % step < segments) {
+            (*progress_)(done_, 2 * all_);
+        }
     }
 
     /// Passes and trace of a drive over a chunk.
@@ -176,7 +186,6 @@ private:
         auto traces = file_->prepare("SELECT trip, drive, first_m, place_sd_mm, iri, iri_left"
                                      " FROM trace WHERE strip = ?");
         CopyWriter writer{*server_, copy_target(table), columns_of(table)};
-        std::size_t done = 0;
         for (const auto& chunk : chunks_) {
             Drives drives;
             for (passes.bind(chunk.first, chunk.last); passes.step();) {
@@ -198,8 +207,7 @@ private:
             for (auto& [key, drive] : drives) {
                 write(writer, chunk, key, std::move(drive));
             }
-            expect_no_stop(*server_, *progress_);
-            (*progress_)(++done, chunks_.size());
+            report(static_cast<std::size_t>(chunk.last - chunk.first + 1));
         }
         writer.finish();
     }
@@ -257,6 +265,8 @@ private:
     std::unordered_map<std::int64_t, std::int32_t> cell_of_way_;
     std::set<std::int32_t> cells_;
     std::vector<FileChunk> chunks_;
+    std::size_t done_ = 0; ///< segments, see report()
+    std::size_t all_ = 0;
 };
 
 } // namespace
