@@ -142,7 +142,7 @@ Cell of_side(const std::optional<SurveyPair>& side, double SurveyPair::*value) {
 }
 
 // clang-format off
-Columns<ComparedSurvey> survey_columns(UnitSystem units) {
+Columns<ComparedSurvey> compared_survey_columns(UnitSystem units) {
     return in_units<ComparedSurvey>({
     {"name", as::text, [](auto& r) { return r.name; }},
     {"date", as::day, [](auto& r) { return unless_empty(r.day); }},
@@ -248,7 +248,7 @@ std::string reference_json(const ReferenceReport& report, UnitSystem units) {
     // clang-format off
     const Columns<ReferenceReport> columns{
         {"surveys", as::raw,
-         [units](auto& r) { return json_rows(survey_columns(units), r.surveys); }},
+         [units](auto& r) { return json_rows(compared_survey_columns(units), r.surveys); }},
         {"passes_span", as::text, [](auto& r) { return unless_empty(span_of(r.passed)); }},
         {"references_span", as::text, [](auto& r) { return unless_empty(span_of(r.surveyed)); }},
         {"segment_length_m", as::metres(2), [](auto& r) { return r.segment_length_m; }},

@@ -46,7 +46,7 @@ std::string left_out_text(const CalibrationReport& report) {
 }
 
 // clang-format off
-Columns<CalibratedCar> car_columns(UnitSystem units) {
+Columns<CalibratedCar> calibrated_car_columns(UnitSystem units) {
     return in_units<CalibratedCar>({
     {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", "{:<34}"}},
     {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
@@ -63,10 +63,10 @@ Columns<CalibratedCar> car_columns(UnitSystem units) {
     }, units);
 }
 
-Columns<CalibrationReport> report_columns(UnitSystem units) {
+Columns<CalibrationReport> calibration_columns(UnitSystem units) {
     return in_units<CalibrationReport>({
     {"generation", as::integer, [](auto& r) { return r.generation; }},
-    {"cars", as::raw, [units](auto& r) { return json_rows(car_columns(units), r.cars); }},
+    {"cars", as::raw, [units](auto& r) { return json_rows(calibrated_car_columns(units), r.cars); }},
     {"car_relative_sd", as::real(4), [](auto& r) { return r.car_relative_sd; }},
     {"trip_relative_sd", as::real(4), [](auto& r) { return r.components.trip_relative_sd; }},
     {"rest_relative_sd", as::real(4), [](auto& r) { return r.components.rest_relative_sd; }},
@@ -84,7 +84,7 @@ Columns<CalibrationReport> report_columns(UnitSystem units) {
 } // namespace
 
 std::string text_of(const CalibrationReport& report, UnitSystem units) {
-    auto text = table_text(car_columns(units), report.cars);
+    auto text = table_text(calibrated_car_columns(units), report.cars);
     for (const auto& car : report.cars) {
         text += changes_text(car.vehicle, car.periods);
     }
@@ -111,11 +111,11 @@ std::string text_of(const CalibrationReport& report, UnitSystem units) {
 }
 
 std::string json_of(const CalibrationReport& report, UnitSystem units) {
-    return json_object(report_columns(units), report).text() + "\n";
+    return json_object(calibration_columns(units), report).text() + "\n";
 }
 
 std::string csv_of(const CalibrationReport& report, UnitSystem units) {
-    return rows_text(car_columns(units), report.cars, "csv");
+    return rows_text(calibrated_car_columns(units), report.cars, "csv");
 }
 
 } // namespace macadam

@@ -86,7 +86,7 @@ std::vector<CarInfo> cars_of(const StoreUsage& usage) {
     return cars;
 }
 
-std::string km_words(const CarInfo& car, UnitSystem units) {
+std::string car_km_words(const CarInfo& car, UnitSystem units) {
     const bool us = units == UnitSystem::us;
     auto words = fmt::format("{:>9.1f}", us ? 1000 * car.km * mi_of_m : car.km);
     if (const auto& calibration = car.calibration) {
@@ -128,7 +128,7 @@ Columns<CarInfo> of_cars(UnitSystem units) {
     {"", as::text, [](auto& r) { return fmt::format("{:.1f} %", 100 * r.share); },
      {"share", " {:>7}"}},
     {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
-    {"", as::text, [units](auto& r) { return km_words(r, units); },
+    {"", as::text, [units](auto& r) { return car_km_words(r, units); },
      {units == UnitSystem::us ? "mi" : "km", " {:>9}"}},
     {"gain", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::gain); }},
     {"offset_mm_per_m", as::iri(3),
