@@ -6,6 +6,9 @@
 
 #include <algorithm>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace macadam {
 namespace {
 
@@ -17,6 +20,15 @@ int hex_digit(char letter) {
 }
 
 } // namespace
+
+HttpOpenFile::HttpOpenFile(const std::filesystem::path& path)
+    : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)} {}
+
+HttpOpenFile::~HttpOpenFile() {
+    if (number_ >= 0) {
+        ::close(number_);
+    }
+}
 
 std::optional<std::string> HttpRequest::parameter(std::string_view name) const {
     const auto found = std::ranges::find(

@@ -41,9 +41,24 @@ struct HttpRequest {
     std::string_view header(std::string_view name) const;
 };
 
+/// File open for reading, which can be sent also when it has been removed.
+class HttpOpenFile {
+public:
+    /// Opens no symbolic link.
+    explicit HttpOpenFile(const std::filesystem::path& path);
+    HttpOpenFile(const HttpOpenFile&) = delete;
+    HttpOpenFile& operator=(const HttpOpenFile&) = delete;
+    ~HttpOpenFile();
+
+    int number() const { return number_; } ///< < 0: it could not be opened
+
+private:
+    int number_;
+};
+
 /// File that a response sends in part or whole.
 struct HttpFile {
-    std::filesystem::path path;
+    std::shared_ptr<const HttpOpenFile> open;
     std::uint64_t size;
 };
 

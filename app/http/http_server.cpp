@@ -2,6 +2,7 @@
 
 #include "app/http/connection_deadlines.hpp"
 #include "app/http/listening_socket.hpp"
+#include "app/http/mhd_connection.hpp"
 #include "app/http/request_check.hpp"
 #include "app/http/response_finish.hpp"
 #include "estimator/common/error.hpp"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 #include <microhttpd.h>
 
-#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -20,7 +20,6 @@
 #include <thread>
 #include <utility>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 namespace macadam {
@@ -36,11 +35,12 @@ constexpr std::size_t connection_bytes = std::size_t{40} * 1024;
 
 /// Request with its response, from its first line until the response is sent.
 struct Exchange {
-    explicit Exchange(std::string_view uri) : target{uri} {}
+    explicit Exchange(const char* uri) : target{take_target(uri)} {}
 
     std::string target;
     HttpRequest request{};
-    HttpResponse response{};
+    FinishedResponse response{};
+    std::string_view route{}; ///< of the response
     Clock::time_point begin = Clock::now();
     bool is_read = false; ///< whole
     std::optional<HttpResponse> refusal{};
@@ -52,42 +52,9 @@ struct Exchange {
     std::uint64_t unread_bytes = 0;
 };
 
-MHD_Result
-collect_header(void* headers, MHD_ValueKind /*kind*/, const char* name, const char* value) {
-    static_cast<std::vector<std::pair<std::string_view, std::string_view>>*>(headers)->emplace_back(
-        name, value == nullptr ? "" : value);
-    return MHD_YES;
-}
-
-bool has_body(MHD_Connection* connection) {
-    return MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Content-Length") != nullptr ||
-           MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Transfer-Encoding") != nullptr;
-}
-
-int socket_of(MHD_Connection* connection) {
-    const auto* const info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
-    return info == nullptr ? -1 : info->connect_fd;
-}
-
 /// Leaves targets encoded; they are decoded once (http_message.hpp).
 std::size_t leave_encoded(void* /*server*/, MHD_Connection* /*connection*/, char* text) {
     return std::char_traits<char>::length(text);
-}
-
-void free_body(void* body) {
-    delete static_cast<std::string*>(body);
-}
-
-MHD_Response* response_of(FinishedResponse& finished) {
-    if (finished.file && finished.status != 304 && finished.status != 416) {
-        const int file = open(finished.file->path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-        return file < 0 ? nullptr
-                        : MHD_create_response_from_fd_at_offset64(
-                              finished.part.size, file, finished.part.first);
-    }
-    auto* const body = new std::string{std::move(finished.body)};
-    return MHD_create_response_from_buffer_with_free_callback_cls(
-        body->size(), body->data(), free_body, body);
 }
 
 } // namespace
@@ -114,7 +81,7 @@ struct HttpServer::Impl {
             const std::lock_guard lock{mutex};
             is_stopping = true;
             for (const auto& [connection, exchange] : queue) {
-                exchange->response = http_problem(503, "the server stops");
+                answer(*exchange, http_problem(503, "the server stops"));
                 exchange->is_done = true;
                 MHD_resume_connection(connection);
             }
@@ -230,7 +197,7 @@ struct HttpServer::Impl {
             return MHD_YES;
         }
         if (exchange.refusal) {
-            exchange.response = *std::move(exchange.refusal);
+            answer(exchange, *std::move(exchange.refusal));
             return queue_response(connection, exchange);
         }
         return hand_to_worker(connection, exchange);
@@ -272,7 +239,7 @@ struct HttpServer::Impl {
             }
         }
         if (stops) {
-            exchange.response = busy(503, "the server stops");
+            answer(exchange, busy(503, "the server stops"));
             return queue_response(connection, exchange);
         }
         arrived.notify_one();
@@ -282,8 +249,7 @@ struct HttpServer::Impl {
     /// Returns the response to a request that no worker needs to see.
     std::optional<HttpResponse>
     early_response(MHD_Connection* connection, const char* method, Exchange& exchange) {
-        RequestHead head{method, exchange.target, {}};
-        MHD_get_connection_values(connection, MHD_HEADER_KIND, collect_header, &head.headers);
+        const auto head = head_of(connection, method, exchange.target);
         exchange.request.client = peer_of(socket_of(connection));
         if (auto refusal = decode_head(head, config, exchange.request)) {
             return refusal;
@@ -325,22 +291,17 @@ struct HttpServer::Impl {
         return response;
     }
 
+    /// Gives an exchange its response in the form in which it is sent.
+    void answer(Exchange& exchange, HttpResponse response) const {
+        exchange.route = response.route;
+        exchange.response = finish(exchange.request, std::move(response), config.allowed_origin);
+    }
+
     MHD_Result queue_response(MHD_Connection* connection, Exchange& exchange) {
-        const auto route = exchange.response.route;
-        const bool is_head = exchange.request.method == "HEAD";
-        auto finished =
-            finish(exchange.request, std::move(exchange.response), config.allowed_origin);
-        auto* response = response_of(finished);
-        if (response == nullptr) { // the file has gone
-            finished.status = 404;
-            finished.part.size = 0;
-            response = MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT);
-        }
-        for (const auto& [name, value] : finished.headers) {
-            MHD_add_response_header(response, name.c_str(), value.c_str());
-        }
-        const auto bytes = is_head || finished.status == 304 ? 0 : finished.part.size;
-        exchange.unread_bytes = finished.file ? 0 : bytes;
+        auto& response = exchange.response;
+        const bool has_content = exchange.request.method != "HEAD" && response.status != 304;
+        const auto bytes = has_content ? response.part.size : 0;
+        exchange.unread_bytes = response.file ? 0 : bytes;
         unread_bytes += exchange.unread_bytes;
         deadlines.set(
             socket_of(connection),
@@ -348,15 +309,14 @@ struct HttpServer::Impl {
                 std::chrono::seconds{bytes / std::max<std::size_t>(config.slowest_bytes, 1)});
         if (handlers.record) {
             handlers.record({exchange.request.method,
-                             route,
-                             finished.status,
+                             exchange.route,
+                             response.status,
                              bytes,
                              std::chrono::duration_cast<std::chrono::microseconds>(
                                  Clock::now() - exchange.begin)});
         }
-        const auto result =
-            MHD_queue_response(connection, static_cast<unsigned>(finished.status), response);
-        MHD_destroy_response(response);
+        const auto result = send_response(connection, response);
+        response.file.reset(); // the connection has one of its own
         return result;
     }
 
@@ -391,25 +351,27 @@ struct HttpServer::Impl {
             const auto [connection, exchange] = queue.front();
             queue.pop_front();
             lock.unlock();
-            exchange->response = answered(exchange->request, number);
+            work_on(*exchange, number);
             exchange->is_done = true;
             MHD_resume_connection(connection);
         }
     }
 
-    HttpResponse answered(const HttpRequest& request, std::size_t number) const {
+    /// Answers, and compresses the answer, which takes its time.
+    void work_on(Exchange& exchange, std::size_t number) const {
         std::string reason;
         try {
-            return handlers.answer(request, number);
+            answer(exchange, handlers.answer(exchange.request, number));
+            return;
         } catch (const std::exception& error) {
             reason = error.what();
         } catch (...) {
             reason = "unknown exception";
         }
         if (handlers.failed) {
-            handlers.failed(request.path, reason);
+            handlers.failed(exchange.request.path, reason);
         }
-        return http_problem(500, "the server's log says more");
+        answer(exchange, http_problem(500, "the server's log says more"));
     }
 
     void drain(std::chrono::milliseconds at_most) {

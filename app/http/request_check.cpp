@@ -93,6 +93,23 @@ std::optional<HttpResponse> refused_body(const HttpRequest& request,
     return std::nullopt;
 }
 
+/// Takes the host of a target in absolute form, "http://localhost:8080/api", which is instead of
+/// the header (RFC 9112, 3.2.2); leaves its path and query.
+std::string path_and_query(std::string_view target, HttpRequest& request) {
+    const auto lower = lower_case(target.substr(0, std::string_view{"https://"}.size()));
+    const auto scheme = lower.starts_with("http://") ? std::string_view{"http://"}.size()
+                        : lower == "https://"        ? lower.size()
+                                                     : 0;
+    if (scheme == 0) {
+        return std::string{target};
+    }
+    target.remove_prefix(scheme);
+    const auto host = target.substr(0, target.find_first_of("/?"));
+    request.headers["host"] = host;
+    target.remove_prefix(host.size());
+    return target.starts_with('/') ? std::string{target} : "/" + std::string{target};
+}
+
 } // namespace
 
 std::uint64_t body_bytes_of(const HttpRequest& request) {
@@ -124,6 +141,7 @@ decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest
     if (count_of(head, "content-length") > 1) {
         return http_problem(400, "expected at most one header Content-Length");
     }
+    const auto target = path_and_query(head.target, request);
     if (!is_known_host(lower_case(request.header("host")), config)) {
         return http_problem(421, "the header Host names another server");
     }
@@ -133,7 +151,7 @@ decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest
     if (auto refusal = refused_body(request, config)) {
         return refusal;
     }
-    if (!parse_target(head.target, request)) {
+    if (!parse_target(target, request)) {
         return http_problem(400, "the path or query is not percent-encoded text");
     }
     if (config.behind_proxy) { // the last address is the one that the proxy added

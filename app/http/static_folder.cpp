@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -67,9 +68,13 @@ std::optional<HttpResponse> file_response(const std::filesystem::path& folder,
     if (!S_ISREG(status.st_mode)) {
         return std::nullopt;
     }
+    auto open = std::make_shared<const HttpOpenFile>(file);
+    if (open->number() < 0 || fstat(open->number(), &status) != 0 || !S_ISREG(status.st_mode)) {
+        return std::nullopt;
+    }
     return HttpResponse{
         .type = std::string{media_type_of(file)},
-        .file = HttpFile{file, static_cast<std::uint64_t>(status.st_size)},
+        .file = HttpFile{std::move(open), static_cast<std::uint64_t>(status.st_size)},
         .etag = fmt::format("{:x}-{:x}-{:x}",
                             status.st_ino,
                             status.st_size,

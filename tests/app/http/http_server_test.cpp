@@ -140,6 +140,28 @@ TEST(HttpServer, RefusesHostileHeads) {
     EXPECT_EQ(get(server.port(), "/health").status, 200);
 }
 
+TEST(HttpServer, AnswersTargetsInAbsoluteForm) {
+    const HttpServer server{config(), handlers()};
+    EXPECT_EQ(get(server.port(), "http://localhost/health").body, "well");
+    EXPECT_EQ(get(server.port(), "HTTP://[::1]:80/health?f=json").body, "well");
+    EXPECT_EQ(get(server.port(), "https://localhost").status, 200);
+    EXPECT_EQ(get(server.port(), "http://evil.example/health").status, 421);
+}
+
+TEST(HttpServer, AnswersWhateverTheNumberOfParameters) {
+    auto made = handlers();
+    made.answer = [](const HttpRequest& request, std::size_t) {
+        return HttpResponse{.body = fmt::format("{}", request.parameters.size())};
+    };
+    const HttpServer server{config(), made};
+    std::string query;
+    for (int i = 0; i < 4000; ++i) {
+        query += "a&";
+    }
+    EXPECT_EQ(get(server.port(), "/?" + query).body, "4000");
+    EXPECT_EQ(get(server.port(), "/?a=1&b=2").body, "2");
+}
+
 TEST(HttpServer, SurvivesWhatIsNoHttp) {
     const HttpServer server{config(), handlers()};
     for (const std::string_view bytes :
@@ -393,6 +415,19 @@ TEST(StaticFolder, ServesFilesWithTheirTypes) {
     EXPECT_EQ(page.body, "<html>");
     EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
     EXPECT_EQ(page.headers.at("accept-ranges"), "bytes");
+}
+
+TEST(StaticFolder, SendsAFileThatIsRemovedMeanwhile) {
+    const auto folder = test_folder();
+    HttpHandlers made;
+    made.answer = [&](const HttpRequest& request, std::size_t) {
+        written(folder, "page.html", "<html>");
+        auto response = file_response(folder, request.path).value_or(http_problem(404, "none"));
+        std::filesystem::remove(folder / "page.html");
+        return response;
+    };
+    const HttpServer server{config(), made};
+    EXPECT_EQ(get(server.port(), "/page.html").body, "<html>");
 }
 
 TEST(StaticFolder, ServesRangesOfFiles) {
