@@ -1,28 +1,16 @@
 // A site of a small simulated fleet, and pages of Debian's Chromium that show it and reach no other host.
 import { chromium } from 'playwright-core';
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { createRequire } from 'node:module';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { join } from 'node:path';
+import { macadam, simulated } from './simulated.mjs';
 import { serve } from './static_server.mjs';
 
-const program = process.env.MACADAM_PROGRAM;
-const source = join(dirname(fileURLToPath(import.meta.url)), '../..');
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-export const macadam = (...words) => execFileSync(program, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1e8 });
-
-function simulated(folder) {
-  const fleet = join(source, 'sample_data/fleet');
-  const database = join(folder, 'roads.gpkg');
-  macadam('simulate', '-o', `${folder}/fleet`, '--network', `${fleet}/network.osm.pbf`, '--recipe', `${fleet}/recipe.toml`, '--trips', '4');
-  macadam('init', database, '--network', `${folder}/fleet/network.osm.pbf`);
-  macadam('import', database, `${folder}/fleet/trips`);
-  return database;
-}
+export { macadam };
 
 export async function world() {
   const folder = mkdtempSync(join(tmpdir(), 'macadam-web-'));

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -85,6 +87,36 @@ std::vector<std::string> items_parameters() {
     return parameters;
 }
 
+/// Schemas of the bodies, referred to by operations.
+constexpr std::string_view schemas =
+    R"({"Problem":{"type":"object","required":["title","status","detail"],"properties":{)"
+    R"("title":{"type":"string"},"status":{"type":"integer"},"detail":{"type":"string"}}},)"
+    R"("Link":{"type":"object","required":["href","rel","type"],"properties":{)"
+    R"("href":{"type":"string"},"rel":{"type":"string"},"type":{"type":"string"}}},)"
+    R"("Linked":{"type":"object","required":["links"],"properties":{)"
+    R"("links":{"type":"array","items":{"$ref":"#/components/schemas/Link"}}}},)"
+    R"("Feature":{"type":"object","required":["type","id","geometry","properties"],"properties":{)"
+    R"("type":{"type":"string","enum":["Feature"]},"id":{"type":"string"},)"
+    R"("geometry":{"type":"object","required":["type","coordinates"]},)"
+    R"("properties":{"type":"object"}}},)"
+    R"("FeatureCollection":{"allOf":[{"$ref":"#/components/schemas/Linked"},{"type":"object",)"
+    R"("required":["type","features","numberMatched","numberReturned"],"properties":{)"
+    R"("type":{"type":"string","enum":["FeatureCollection"]},)"
+    R"("features":{"type":"array","items":{"$ref":"#/components/schemas/Feature"}},)"
+    R"("numberMatched":{"type":"integer","minimum":0},)"
+    R"("numberReturned":{"type":"integer","minimum":0}}}]}})";
+
+/// Schema of the body of an operation.
+std::string_view schema_of(std::string_view id, std::string_view type) {
+    constexpr std::array<std::string_view, 3> linked{"landing", "collections", "collection"};
+    return id == "items"  ? R"({"$ref":"#/components/schemas/FeatureCollection"})"
+           : id == "item" ? R"({"$ref":"#/components/schemas/Feature"})"
+           : std::ranges::find(linked, id) != linked.end()
+               ? R"({"$ref":"#/components/schemas/Linked"})"
+           : type.find("json") == std::string_view::npos ? R"({"type":"string","format":"binary"})"
+                                                         : R"({"type":"object"})";
+}
+
 /// Operation of one path that answers GET.
 std::string operation_text(std::string_view id,
                            std::string_view summary,
@@ -101,9 +133,7 @@ std::string operation_text(std::string_view id,
                              R"("404":{{"$ref":"#/components/responses/Problem"}},)"
                              R"("503":{{"$ref":"#/components/responses/Problem"}}}})",
                              type,
-                             type.find("json") == std::string_view::npos
-                                 ? R"({"type":"string","format":"binary"})"
-                                 : R"({"type":"object"})")});
+                             schema_of(id, type))});
     return fmt::format(R"({{"get":{}}})", operation.text());
 }
 
@@ -256,8 +286,8 @@ HttpResponse openapi_page(const ApiContext& context) {
     const auto text = fmt::format(
         R"({{"openapi":"3.0.3","info":{{"title":{},"version":"{}","license":{{"name":{}}}}},)"
         R"("servers":[{{"url":"{}"}}],"paths":{},)"
-        R"("components":{{"securitySchemes":{},"responses":{{"Problem":{{"description":"Refused",)"
-        R"("content":{{"application/problem+json":{{"schema":{{"type":"object"}}}}}}}}}}}}}})",
+        R"("components":{{"schemas":{},"securitySchemes":{},"responses":{{"Problem":{{"description":"Refused",)"
+        R"("content":{{"application/problem+json":{{"schema":{{"$ref":"#/components/schemas/Problem"}}}}}}}}}}}}}})",
         json_text(context.store.file().stem().string()),
         "1",
         json_text(context.store.settings().attribution.empty()
@@ -265,6 +295,7 @@ HttpResponse openapi_page(const ApiContext& context) {
                       : context.store.settings().attribution),
         context.base,
         paths_text(),
+        schemas,
         trip_security_schemes);
     return api_page(context, "API", text, openapi_type);
 }
