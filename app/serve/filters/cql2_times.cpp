@@ -19,26 +19,26 @@ using Order = std::weak_ordering;
 
 // Ends that are open lie before or after everything, and at the same place.
 
-Order begins(const TimeSpan& a, const TimeSpan& b) {
+Order begins(const Cql2Span& a, const Cql2Span& b) {
     return a.begin && b.begin ? compare(*a.begin, *b.begin)
                               : Order{a.begin.has_value() <=> b.begin.has_value()};
 }
 
-Order ends(const TimeSpan& a, const TimeSpan& b) {
+Order ends(const Cql2Span& a, const Cql2Span& b) {
     return a.end && b.end ? compare(*a.end, *b.end)
                           : Order{b.end.has_value() <=> a.end.has_value()};
 }
 
 /// Order of the end of one and the beginning of another.
-Order end_to_begin(const TimeSpan& a, const TimeSpan& b) {
+Order end_to_begin(const Cql2Span& a, const Cql2Span& b) {
     return a.end && b.begin ? compare(*a.end, *b.begin) : Order::greater;
 }
 
-bool is_disjoint(const TimeSpan& a, const TimeSpan& b) {
+bool is_disjoint(const Cql2Span& a, const Cql2Span& b) {
     return end_to_begin(a, b) < 0 || end_to_begin(b, a) < 0;
 }
 
-using Span = const TimeSpan&;
+using Span = const Cql2Span&;
 
 constexpr std::array<std::pair<std::string_view, TimeRelation>, 15> relations{{
     {"t_after", [](Span a, Span b) { return end_to_begin(b, a) < 0; }},

@@ -9,14 +9,14 @@
 namespace macadam {
 
 /// Instant, or interval with ends that may be open.
-struct TimeSpan {
+struct Cql2Span {
     std::optional<Cql2Instant> begin, end;
 };
 
 /// Compares instants; where one is a date, by their days.
 std::weak_ordering compare(const Cql2Instant& a, const Cql2Instant& b);
 
-using TimeRelation = bool (*)(const TimeSpan& a, const TimeSpan& b);
+using TimeRelation = bool (*)(const Cql2Span& a, const Cql2Span& b);
 
 /// Relation of a temporal function, "t_after"; null for another name. Instants are intervals of
 /// which both ends are the same.

@@ -31,7 +31,7 @@ using Of = std::function<std::optional<Value>(const Feature&)>;
 using Truth = Of<bool>;
 using Number = Of<double>;
 using Text = Of<std::string>;
-using Time = Of<TimeSpan>;
+using Time = Of<Cql2Span>;
 struct Place {
     const Cql2Geometry* literal; ///< null: the feature's geometry
 };
@@ -82,13 +82,13 @@ Operand column_operand(const FeatureColumn& column) {
             return shown ? parse_number(*shown) : std::nullopt;
         }};
     case Kind::day:
-        return Time{[&column](const Feature& feature) -> std::optional<TimeSpan> {
+        return Time{[&column](const Feature& feature) -> std::optional<Cql2Span> {
             const auto day = plain_text(column.type, column.value(feature.row));
             if (!day) {
                 return std::nullopt;
             }
             const auto instant = parse_cql2_instant(*day);
-            return TimeSpan{instant, instant};
+            return Cql2Span{instant, instant};
         }};
     default:
         return Text{[&column](const Feature& feature) {
@@ -152,7 +152,7 @@ private:
             expect_two(expression);
             return of_both<bool>(time(expression.args[0]),
                                  time(expression.args[1]),
-                                 [relation](const TimeSpan& a, const TimeSpan& b) {
+                                 [relation](const Cql2Span& a, const Cql2Span& b) {
                                      return std::optional{relation(a, b)};
                                  });
         }
@@ -180,7 +180,7 @@ private:
                 return compiler.property(property.name);
             }
             Operand operator()(const Cql2Instant& instant) const {
-                return constant(TimeSpan{instant, instant});
+                return constant(Cql2Span{instant, instant});
             }
             Operand operator()(const Cql2Interval& interval) const {
                 return compiler.interval(interval);
@@ -193,7 +193,7 @@ private:
     /// End of an interval; null for an open one.
     Time border(const Cql2Border& border) const {
         if (const auto* const instant = std::get_if<Cql2Instant>(&border)) {
-            return constant(TimeSpan{*instant, *instant});
+            return constant(Cql2Span{*instant, *instant});
         }
         const auto* const name = std::get_if<Cql2Property>(&border);
         return name == nullptr ? nullptr : as<Time>(property(name->name), "a time");
@@ -201,8 +201,8 @@ private:
 
     Time interval(const Cql2Interval& ends) const {
         return [begin = border(ends.begin),
-                end = border(ends.end)](const Feature& feature) -> std::optional<TimeSpan> {
-            TimeSpan span;
+                end = border(ends.end)](const Feature& feature) -> std::optional<Cql2Span> {
+            Cql2Span span;
             if (begin) {
                 const auto value = begin(feature);
                 if (!value) {
@@ -234,7 +234,7 @@ private:
         const auto* const text = std::get_if<std::string>(&expression.literal);
         if (expression.op.empty() && text != nullptr) {
             const auto instant = parse_cql2_instant(*text);
-            return constant(TimeSpan{instant, instant});
+            return constant(Cql2Span{instant, instant});
         }
         return as<Time>(operand(expression), "a time");
     }
@@ -315,7 +315,7 @@ private:
                                  (is_equal && order == 0)};
         };
         return of_both<bool>(std::move(a), std::move(b), [test](const Value& x, const Value& y) {
-            if constexpr (std::is_same_v<Value, TimeSpan>) {
+            if constexpr (std::is_same_v<Value, Cql2Span>) {
                 return test(compare(*x.begin, *y.begin));
             } else {
                 return test(x <=> y);
