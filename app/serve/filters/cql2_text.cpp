@@ -16,8 +16,15 @@
 namespace macadam {
 namespace {
 
-Cql2Expression call(std::string_view op, std::vector<Cql2Expression> args) {
+Cql2Expression call_of(std::string_view op, std::vector<Cql2Expression> args) {
     return {.op = std::string{op}, .args = std::move(args), .literal = {}};
+}
+
+template <typename... Operands>
+Cql2Expression call(std::string_view op, Operands... operands) {
+    std::vector<Cql2Expression> args;
+    (args.push_back(std::move(operands)), ...);
+    return call_of(op, std::move(args));
 }
 
 Cql2Expression literal(Cql2Expression::Literal value) {
@@ -70,7 +77,7 @@ private:
         do {
             args.push_back(operand());
         } while (words_.take_word(word));
-        return call(word, std::move(args));
+        return call_of(word, std::move(args));
     }
 
     Cql2Expression either() {
@@ -79,34 +86,36 @@ private:
 
     Cql2Expression negation() {
         const Level level{depth_};
-        return words_.take_word("not") ? call("not", {negation()}) : comparison();
+        if (words_.take_word("not")) {
+            return call("not", negation());
+        }
+        return comparison();
     }
 
     Cql2Expression comparison() {
         auto left = sum();
         for (const std::string_view op : {"=", "<>", "<=", ">=", "<", ">"}) { // longer ones first
             if (words_.take(op)) {
-                return call(op, {std::move(left), sum()});
+                return call(op, std::move(left), sum());
             }
         }
         if (words_.take_word("is")) {
             const bool is_negated = words_.take_word("not");
             words_.expect_word("null");
-            return negated_if(is_negated, call("isNull", {std::move(left)}));
+            return negated_if(is_negated, call("isNull", std::move(left)));
         }
         const bool is_negated = words_.take_word("not");
         if (words_.take_word("like")) {
-            return negated_if(is_negated, call("like", {std::move(left), primary()}));
+            return negated_if(is_negated, call("like", std::move(left), primary()));
         }
         if (words_.take_word("between")) {
             auto low = sum();
             words_.expect_word("and");
-            return negated_if(is_negated,
-                              call("between", {std::move(left), std::move(low), sum()}));
+            return negated_if(is_negated, call("between", std::move(left), std::move(low), sum()));
         }
         if (words_.take_word("in")) {
-            auto list = call("list", arguments());
-            return negated_if(is_negated, call("in", {std::move(left), std::move(list)}));
+            auto list = call_of("list", arguments());
+            return negated_if(is_negated, call("in", std::move(left), std::move(list)));
         }
         if (is_negated) {
             words_.refuse("LIKE, BETWEEN or IN");
@@ -115,7 +124,7 @@ private:
     }
 
     static Cql2Expression negated_if(bool is_negated, Cql2Expression expression) {
-        return is_negated ? call("not", {std::move(expression)}) : std::move(expression);
+        return is_negated ? call("not", std::move(expression)) : std::move(expression);
     }
 
     /// Operands joined by operators of one rank, from left to right.
@@ -134,7 +143,7 @@ private:
                 throw Cql2Error{
                     fmt::format("more than {} operators follow one another", max_cql2_depth)};
             }
-            left = call(*op, {std::move(left), operand()});
+            left = call(*op, std::move(left), operand());
         }
     }
 
@@ -147,7 +156,10 @@ private:
     Cql2Expression power() {
         const Level level{depth_};
         auto base = primary();
-        return words_.take("^") ? call("^", {std::move(base), power()}) : base;
+        if (words_.take("^")) {
+            return call("^", std::move(base), power());
+        }
+        return base;
     }
 
     std::vector<Cql2Expression> arguments() {
@@ -219,7 +231,7 @@ private:
         if (!name) {
             throw Cql2Error{fmt::format("there is no function {}", in_quotes(word))};
         }
-        return call(*name, arguments());
+        return call_of(*name, arguments());
     }
 
     Cql2Border border() {
