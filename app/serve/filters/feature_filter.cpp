@@ -274,16 +274,14 @@ private:
     Truth predicate(const Cql2Expression& expression) const {
         const auto& args = expression.args;
         if (expression.op == "between") {
-            return any_equals({comparison(">=", args.at(0), args.at(1)),
-                               comparison("<=", args.at(0), args.at(2))},
-                              false);
+            return compared(args.at(0), {{">=", &args.at(1)}, {"<=", &args.at(2)}}, false);
         }
         if (expression.op == "in") {
-            std::vector<Truth> equal;
+            std::vector<Comparand> values;
             for (const auto& value : args.at(1).args) {
-                equal.push_back(comparison("=", args.at(0), value));
+                values.push_back({"=", &value});
             }
-            return any_equals(std::move(equal), true);
+            return compared(args.at(0), values, true);
         }
         if (expression.op == "like") {
             return of_both<bool>(text(args.at(0)),
@@ -303,6 +301,43 @@ private:
                 }
             },
             operand(args.at(0)));
+    }
+
+    struct Comparand {
+        std::string_view op;
+        const Cql2Expression* value;
+    };
+
+    /// Compares one value with several, until one comparison is `decides`. The value is made and
+    /// computed once for all: else lists in one another would multiply their lengths.
+    Truth compared(const Cql2Expression& expression,
+                   const std::vector<Comparand>& others,
+                   bool decides) const {
+        return std::visit(
+            [&](auto value) -> Truth {
+                if constexpr (std::is_same_v<decltype(value), Place>) {
+                    throw Cql2Error{"a geometry cannot be compared"};
+                } else {
+                    using Result = decltype(value(std::declval<const Feature&>()));
+                    const auto latest = std::make_shared<Result>(); // filters are for one thread
+                    std::vector<Truth> conditions;
+                    for (const auto& [op, other] : others) {
+                        conditions.push_back(comparison(
+                            op,
+                            expression,
+                            decltype(value){[latest](const Feature&) { return *latest; }},
+                            *other));
+                    }
+                    return [value = std::move(value),
+                            latest,
+                            condition = any_equals(std::move(conditions), decides)](
+                               const Feature& feature) {
+                        *latest = value(feature);
+                        return condition(feature);
+                    };
+                }
+            },
+            operand(expression));
     }
 
     template <typename Value>
@@ -325,7 +360,15 @@ private:
 
     Truth
     comparison(std::string_view op, const Cql2Expression& left, const Cql2Expression& right) const {
-        auto a = operand(left), b = operand(right);
+        return comparison(op, left, operand(left), right);
+    }
+
+    /// \param a  operand of `left`
+    Truth comparison(std::string_view op,
+                     const Cql2Expression& left,
+                     Operand a,
+                     const Cql2Expression& right) const {
+        auto b = operand(right);
         if (std::holds_alternative<Time>(a) || std::holds_alternative<Time>(b)) {
             for (const auto* each : {&left, &right}) {
                 if (std::holds_alternative<Cql2Interval>(each->literal)) {

@@ -157,6 +157,20 @@ TEST(Cql2, LeavesOutFeaturesWhoseValueIsUnknown) {
     EXPECT_TRUE(holds("name = 'a' OR passes = 1", unknown_road));
 }
 
+TEST(Cql2, ComputesAValueOnceForAllOfAListOrRange) {
+    // Computed for each of them, the innermost condition would be made 8 to the 18th times.
+    std::string lists = R"({"op":"=","args":[{"property":"paved"},true]})";
+    std::string ranges = lists;
+    for (int depth = 0; depth < 18; ++depth) {
+        lists = R"({"op":"in","args":[)" + lists + ",[false,true,true,true,true,true,true,false]]}";
+        ranges = R"({"op":"between","args":[)" + ranges + ",true,true]}";
+    }
+    EXPECT_TRUE(holds(parse_cql2_json(lists)));
+    EXPECT_TRUE(holds(parse_cql2_json(lists), unknown_road)); // true and false are in each list
+    EXPECT_TRUE(holds(parse_cql2_json(ranges)));
+    EXPECT_FALSE(holds(parse_cql2_json(ranges), unknown_road));
+}
+
 TEST(Cql2, ComparesNumbersAsTheyAreShown) {
     EXPECT_TRUE(holds("iri = 4.25"));
 }
