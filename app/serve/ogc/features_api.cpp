@@ -291,7 +291,9 @@ HttpResponse FeaturesApi::list_items(const ApiContext& context, std::string_view
     const auto all = list(context, id);
     const auto area = query.box ? std::optional{area_of(*query.box)} : std::nullopt;
     Page page;
+    TimeLimit limit;
     for (const auto& feature : all->features) {
+        limit.check();
         const bool fits =
             (!area || area->intersects(feature.line)) &&
             (!query.period || is_seen_in(feature, columns, *query.period)) &&

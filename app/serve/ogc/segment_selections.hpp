@@ -18,6 +18,21 @@ namespace macadam {
 /// Selection takes longer than a request may.
 struct SelectionTooLong {};
 
+/// End of the time that a request may take to select features.
+class TimeLimit {
+public:
+    explicit TimeLimit(std::chrono::milliseconds from_now = std::chrono::seconds{10})
+        : end_{std::chrono::steady_clock::now() + from_now} {}
+
+    /// Called for each feature.
+    /// \throws SelectionTooLong  once the time is over
+    void check();
+
+private:
+    std::size_t calls_ = 0;
+    std::chrono::steady_clock::time_point end_;
+};
+
 /// Keys of the segments that a request selects, in order.
 using SelectedKeys = std::shared_ptr<const std::vector<SegmentKey>>;
 
@@ -30,7 +45,6 @@ public:
     SelectedKeys
     keys(const StoreReader& store, const std::string& version, const ItemsQuery& query);
 
-    static constexpr std::chrono::seconds max_time{10};
     static constexpr std::size_t max_keys = 4'000'000; ///< of all selections, 24 bytes each
 
 private:

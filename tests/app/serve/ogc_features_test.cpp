@@ -2,6 +2,7 @@
 // 17-069r4 (annex A) and 18-058r1, which these follow.
 
 #include "app/http/http_message.hpp"
+#include "app/serve/ogc/segment_selections.hpp"
 #include "storage/exports/export.hpp"
 #include "support/http/served_store.hpp"
 #include "support/program/shell.hpp"
@@ -386,6 +387,12 @@ TEST(OgcFeatures, CountsRequestsByTheirPatterns) {
     const auto metrics = served.ask("/metrics").body;
     EXPECT_THAT(metrics, HasSubstr("route=\"/collections/{id}/items\",code=\"200\"} 1"));
     EXPECT_THAT(metrics, Not(HasSubstr("1.25")));
+}
+
+TEST(OgcFeatures, EndASelectionThatTakesTooLong) {
+    TimeLimit over{std::chrono::milliseconds{-1}}, ample{std::chrono::hours{1}};
+    EXPECT_THROW(over.check(), SelectionTooLong);
+    EXPECT_NO_THROW(ample.check());
 }
 
 TEST(OgcFeatures, LinksToThePublicAddressBehindAProxy) {
