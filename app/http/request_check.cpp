@@ -93,6 +93,12 @@ std::optional<HttpResponse> refused_body(const HttpRequest& request,
     return std::nullopt;
 }
 
+/// Ends the connection after a response, as what follows may be a body rather than a request.
+HttpResponse cut_off(HttpResponse response) {
+    response.headers.emplace_back("Connection", "close");
+    return response;
+}
+
 /// Takes the host of a target in absolute form, "http://localhost:8080/api", which is instead of
 /// the header (RFC 9112, 3.2.2); leaves its path and query.
 std::string path_and_query(std::string_view target, HttpRequest& request) {
@@ -107,7 +113,7 @@ std::string path_and_query(std::string_view target, HttpRequest& request) {
     const auto host = target.substr(0, target.find_first_of("/?"));
     request.headers["host"] = host;
     target.remove_prefix(host.size());
-    return target.starts_with('/') ? std::string{target} : "/" + std::string{target};
+    return target.starts_with('/') ? std::string{target} : fmt::format("/{}", target);
 }
 
 } // namespace
@@ -130,6 +136,9 @@ decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest
         return http_problem(431, fmt::format("expected at most {} bytes", config.max_head_bytes));
     }
     for (const auto& [name, value] : head.headers) {
+        if (name.find_first_of(" \t") != std::string_view::npos) { // RFC 9112, 5.1
+            return cut_off(http_problem(400, "a header has a blank in its name"));
+        }
         const auto [header, is_first] = request.headers.emplace(lower_case(name), value);
         if (!is_first) { // lines of one list (RFC 9110, 5.3)
             header->second.append(", ").append(value);

@@ -289,6 +289,18 @@ TEST(HttpServer, RefusesBodiesByTheirHeads) {
     }
 }
 
+TEST(HttpServer, TakesNoBodyForARequest) {
+    TakingServer taking;
+    for (const auto* header : {"Content-Length : 42", "Transfer-Encoding\t: chunked"}) {
+        HttpClient client{taking.server.port()};
+        client.send(fmt::format("PUT /a HTTP/1.1\r\nHost: localhost\r\n{}\r\n\r\n"
+                                "GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                                header));
+        EXPECT_EQ(client.answer().status, 400) << header;
+        EXPECT_EQ(client.answer().status, 0) << header; // the connection is closed
+    }
+}
+
 TEST(HttpServer, TellsThatABodyCannotBeStored) {
     TakingServer taking;
     HttpClient client{taking.server.port()};
