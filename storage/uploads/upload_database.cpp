@@ -1,5 +1,6 @@
 #include "storage/uploads/upload_database.hpp"
 
+#include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace macadam {
 namespace {
@@ -55,6 +57,23 @@ void make_private_folder(const fs::path& folder) {
     }
 }
 
+/// Tests whether nobody else can have made a folder: it belongs to the owner of the database, to
+/// who runs this program or to root, and not all may write to it.
+bool is_trusted(const fs::path& folder, const fs::path& store) {
+    struct stat link {};
+    struct stat target {};
+    struct stat database {};
+    if (::lstat(folder.c_str(), &link) != 0 || ::stat(folder.c_str(), &target) != 0) {
+        return false;
+    }
+    const bool has_database = ::stat(store.c_str(), &database) == 0;
+    const auto is_known = [&](const struct stat& of) {
+        return of.st_uid == 0 || of.st_uid == ::geteuid() ||
+               (has_database && of.st_uid == database.st_uid);
+    };
+    return is_known(link) && is_known(target) && (target.st_mode & S_IWOTH) == 0;
+}
+
 } // namespace
 
 fs::path uploads_folder_of(const fs::path& store) {
@@ -96,6 +115,12 @@ void make_uploads_folder(const fs::path& store) {
 
 Database open_uploads(const fs::path& store, LockWaitPolicy wait_policy) {
     const auto file = database_of(store);
+    if (const auto folder = uploads_folder_of(store);
+        fs::exists(folder) && !is_trusted(folder, store)) {
+        throw InputError{fmt::format("{}: others can write to it or own it, expected a folder of "
+                                     "the database's owner alone (chmod 700)",
+                                     folder.string())};
+    }
     Database database{file, Database::Access::write, {}, std::move(wait_policy)};
     if (database.number("PRAGMA application_id") != application_id ||
         database.number("PRAGMA user_version") != 1) {

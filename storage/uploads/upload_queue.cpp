@@ -169,6 +169,11 @@ take_uploads(Database& uploads, const fs::path& spool, std::size_t at_most, int 
         }
         const int lock = locked(upload.file_in(spool));
         if (lock < 0) {
+            // Its row comes after its file, and goes before it: it was taken away by other means.
+            if (fs::is_directory(spool) && !fs::exists(upload.file_in(spool))) {
+                uploads.prepare("UPDATE upload SET state = ?, reason = ? WHERE sha256 = ?")
+                    .run(name_of(UploadState::refused), "the log is missing", upload.sha256);
+            }
             continue;
         }
         ++upload.attempts;

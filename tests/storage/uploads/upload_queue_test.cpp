@@ -1,10 +1,14 @@
 #include "storage/uploads/upload_queue.hpp"
 
+#include "estimator/common/error.hpp"
 #include "storage/uploads/upload_database.hpp"
 #include "support/files/files.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
 #include <string>
 
 namespace macadam::testing {
@@ -72,6 +76,24 @@ TEST(UploadQueue, TakesNewLogsBeforeThoseThatMayHaveEndedTheProgram) {
     const auto taken = take_uploads(world.uploads, world.spool, 10, 0);
     ASSERT_EQ(taken.size(), 1U);
     EXPECT_EQ(taken[0].upload().sha256, std::string(64, 'b'));
+}
+
+TEST(UploadQueue, WaitsForNoLogThatIsMissing) {
+    World world;
+    ASSERT_TRUE(world.send(World::upload('a')));
+    fs::remove(World::upload('a').file_in(world.spool));
+    EXPECT_TRUE(take_uploads(world.uploads, world.spool, 10).empty());
+    EXPECT_EQ(count_waiting(world.uploads), 0U);
+    EXPECT_EQ(find_upload(world.uploads, World::upload('a').sha256)->reason, "the log is missing");
+    EXPECT_TRUE(world.send(World::upload('a')));
+}
+
+TEST(UploadQueue, IsNotReadFromAFolderThatAllCanWriteTo) {
+    World world;
+    fs::permissions(uploads_folder_of(world.store), fs::perms::all);
+    EXPECT_THROW(open_uploads(world.store), InputError);
+    fs::permissions(uploads_folder_of(world.store), fs::perms::owner_all);
+    EXPECT_NO_THROW(open_uploads(world.store));
 }
 
 TEST(UploadQueue, ForgetsTheLogButNotTheFate) {
