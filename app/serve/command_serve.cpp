@@ -94,6 +94,9 @@ void run_serve(const Arguments& arguments, const Console& console) {
     };
     const std::filesystem::path given = arguments.operand("STORE");
     if (std::filesystem::is_directory(given)) {
+        if (arguments.flag("--only-with-token")) {
+            throw UsageError{"--only-with-token is for a database; a folder is shown to all"};
+        }
         serve_folder(given, config, address, console, started);
         return;
     }

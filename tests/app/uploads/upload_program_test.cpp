@@ -219,6 +219,13 @@ TEST(Upload, WaitsForAWorkerOfItsOwn) {
     EXPECT_EQ(world.fates(), std::vector<std::string>{"imported"});
 }
 
+TEST(Server, ShowsNoFolderThatItCannotClose) {
+    const auto run = run_macadam(
+        {"serve", fresh_folder().string(), "--only-with-token", "--listen", "127.0.0.1:0"});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err, HasSubstr("--only-with-token is for a database"));
+}
+
 TEST(Upload, IsForgottenAlsoWhileItWaits) {
     const World world;
     const auto before = world.digest();
