@@ -212,6 +212,7 @@ struct HttpServer::Impl {
                 exchange.request.body->add(block);
             } catch (const std::exception& error) { // a full disk
                 exchange.refusal = busy(503, "the body cannot be stored now");
+                exchange.request.body.reset(); // makes room at once
                 if (handlers.failed) {
                     handlers.failed(exchange.request.path, error.what());
                 }

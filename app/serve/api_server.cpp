@@ -267,6 +267,14 @@ HttpHandlers common_handlers(ServerMetrics& metrics,
     return handlers;
 }
 
+/// Keeps caches of several clients from handing on what only holders of a token may see.
+void keep_private(HttpResponse& response) {
+    constexpr std::string_view shared = "public";
+    if (response.cache_control.starts_with(shared)) {
+        response.cache_control.replace(0, shared.size(), "private");
+    }
+}
+
 /// Admits what has a path of trips by its rules; else only what reads.
 HttpAdmission admitted(TripsApi& trips, const HttpRequest& request, bool only_with_token) {
     if (TripsApi::has_path(request.path)) {
@@ -325,11 +333,15 @@ void serve_database(const std::filesystem::path& file,
         }
         const auto version = store.version();
         try {
-            return answered(pages,
-                            {.request = request,
-                             .store = store.reader(worker),
-                             .version = version,
-                             .base = base_of(request, address)});
+            auto response = answered(pages,
+                                     {.request = request,
+                                      .store = store.reader(worker),
+                                      .version = version,
+                                      .base = base_of(request, address)});
+            if (reception.only_with_token) {
+                keep_private(response);
+            }
+            return response;
         } catch (const InputError& error) {
             console.warn(fmt::format("a request failed: {}", error.what()));
             return http_problem(503, "the database cannot be read now");

@@ -1,10 +1,14 @@
 #include "app/serve/trips/incoming_log.hpp"
 
 #include "estimator/common/ascii.hpp"
+#include "estimator/common/error.hpp"
 #include "storage/text/text.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <system_error>
 #include <utility>
 
 namespace macadam {
@@ -57,13 +61,30 @@ std::optional<std::string> suffix_of_upload(const HttpRequest& request) {
                                            : std::optional{std::string{found->second}};
 }
 
-IncomingLog::IncomingLog(const std::filesystem::path& spool, Upload upload)
-    : upload_{std::move(upload)}, file_{upload_.file_in(spool), readable_by_owner} {}
+bool has_free(const std::filesystem::path& folder, std::uint64_t bytes) {
+    std::error_code unknown;
+    const auto space = std::filesystem::space(folder, unknown);
+    return unknown || space.available >= bytes;
+}
+
+IncomingLog::IncomingLog(const std::filesystem::path& spool,
+                         Upload upload,
+                         std::uint64_t min_free_bytes)
+    : spool_{spool}, min_free_bytes_{min_free_bytes}, upload_{std::move(upload)},
+      file_{upload_.file_in(spool), readable_by_owner} {}
 
 void IncomingLog::add(std::string_view bytes) {
     upload_.bytes += static_cast<std::int64_t>(bytes.size());
     hash_.add(bytes);
     file_.write(bytes);
+    constexpr std::int64_t look_every = 256 * 1024; // bytes
+    if (upload_.bytes - looked_at_bytes_ >= look_every) {
+        looked_at_bytes_ = upload_.bytes;
+        if (!has_free(spool_, min_free_bytes_)) {
+            throw InputError{
+                fmt::format("uploads leave less than {} MiB of the disk", min_free_bytes_ >> 20U)};
+        }
+    }
 }
 
 } // namespace macadam

@@ -18,13 +18,18 @@ namespace macadam {
 /// `std::nullopt` if neither says one that is read. Nothing else of the name is used.
 std::optional<std::string> suffix_of_upload(const HttpRequest& request);
 
+/// Tests whether the disk of a folder has so many bytes left, or does not tell.
+bool has_free(const std::filesystem::path& folder, std::uint64_t bytes);
+
 /// Body of an upload: written to an unnamed file of the spool and hashed as it comes. Without
 /// enqueue() nothing of it remains.
 class IncomingLog final : public HttpBody {
 public:
+    /// \param min_free_bytes  on the disk, whatever others send at the same time
     /// \throws InputError  if the file cannot be made.
-    IncomingLog(const std::filesystem::path& spool, Upload upload);
+    IncomingLog(const std::filesystem::path& spool, Upload upload, std::uint64_t min_free_bytes);
 
+    /// \throws InputError  if the disk has less, or cannot be written.
     void add(std::string_view bytes) override;
 
     /// SHA-256 of all bytes; nothing can be added afterwards.
@@ -34,7 +39,10 @@ public:
     AtomicFile& file() { return file_; }
 
 private:
-    Upload upload_; ///< its `bytes` are those received
+    std::filesystem::path spool_;
+    std::uint64_t min_free_bytes_;
+    std::int64_t looked_at_bytes_ = 0; ///< received when the disk was last looked at
+    Upload upload_;                    ///< its `bytes` are those received
     AtomicFile file_;
     Sha256 hash_;
 };

@@ -1,5 +1,6 @@
 #include "app/serve/trips/trips_api.hpp"
 
+#include "app/http/request_check.hpp"
 #include "app/serve/trips/incoming_log.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/json.hpp"
@@ -219,19 +220,18 @@ HttpAdmission TripsApi::admit_upload(const HttpRequest& request,
     if (request.header("content-length") == "0") {
         return refused(http_problem(422, "the body is empty, expected a trip log"));
     }
-    std::error_code unknown;
-    const auto space =
-        std::filesystem::space(store_.parent_path().empty() ? "." : store_.parent_path(), unknown);
-    if ((!unknown && space.available < config_.min_free_bytes) ||
+    const auto spool = spool_of(store_);
+    if (!has_free(spool, config_.min_free_bytes + body_bytes_of(request)) ||
         count_waiting(*of_network_) >= config_.max_waiting) {
         return refused(
             later(503, "too many trips wait, or the disk is full", std::chrono::minutes{5}));
     }
-    return {.body = std::make_shared<IncomingLog>(spool_of(store_),
+    return {.body = std::make_shared<IncomingLog>(spool,
                                                   Upload{.sha256 = sha256,
                                                          .owner = token.owner,
                                                          .suffix = *suffix,
-                                                         .received_ms = now_ms()})};
+                                                         .received_ms = now_ms()},
+                                                  config_.min_free_bytes)};
 }
 
 // ------------------------------------------------------------------------------------ workers

@@ -2,6 +2,9 @@
 
 #include "app/cli/console.hpp"
 #include "app/serve/api_server.hpp"
+#include "app/serve/trips/incoming_log.hpp"
+#include "app/serve/trips/trips_api.hpp"
+#include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
 #include "storage/uploads/access_token.hpp"
 #include "storage/uploads/upload_database.hpp"
@@ -16,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -303,6 +307,41 @@ TEST(TripsApi, ShowsNothingWithoutATokenIfAsked) {
     EXPECT_EQ(world.ask("GET", "/collections", world.reader).status, 200);
     EXPECT_EQ(world.ask("GET", "/collections", world.operator_).status, 200);
     EXPECT_EQ(world.ask("GET", "/health", "").status, 200);
+}
+
+TEST(TripsApi, LetsNoSharedCacheKeepWhatOnlyTokensShow) {
+    const TakingWorld world{PrivacyProfile::own, {.workers = 0, .only_with_token = true}};
+    auto page = world.ask("GET", "/tiles.json", world.reader);
+    for (; page.status == 503; page = world.ask("GET", "/tiles.json", world.reader)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{20}); // the test's limit ends it
+    }
+    const auto address = nlohmann::json::parse(page.body).at("tiles")[0].get<std::string>();
+    const auto tile = world.ask(
+        "GET", "/tiles/WebMercatorQuad/0/0/0" + address.substr(address.find('?')), world.reader);
+    EXPECT_EQ(tile.headers.at("cache-control"), "private, max-age=31536000, immutable");
+}
+
+TEST(TripsApi, TakesNoTripThatTheDiskCannotHold) {
+    TakingWorld world;
+    TripsApi trips{world.file, {.min_free_bytes = 0}, [] {}};
+    trips.set_crowd(true);
+    HttpRequest request;
+    request.method = "PUT";
+    request.path = "/v1/trips/" + std::string(64, 'a');
+    request.headers = {{"authorization", "Bearer " + world.anna},
+                       {"content-type", "text/csv"},
+                       {"content-length", "1000000000000000000"}};
+    const auto refused = trips.admit(request).refusal;
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->status, 503);
+    request.headers["content-length"] = "5";
+    EXPECT_FALSE(trips.admit(request).refusal);
+
+    constexpr std::uint64_t more_than_any_disk = std::uint64_t{1} << 60U;
+    Upload upload;
+    upload.sha256 = std::string(64, 'a');
+    IncomingLog log{spool_of(world.file), upload, more_than_any_disk};
+    EXPECT_THROW(log.add(std::string(300'000, 'x')), InputError); // others filled it meanwhile
 }
 
 TEST(TripsApi, LetsNobodyGuessTokens) {
