@@ -250,7 +250,12 @@ std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
             if (!events) {
                 events.emplace();
             }
-            std::ranges::move(detect_events(run.profile), std::back_inserter(*events));
+            auto profile = run.profile;
+            if (run.left_mm_per_m.empty()) { // its tracks serve HRI/MRI only
+                profile.left_m.clear();
+                profile.right_m.clear();
+            }
+            std::ranges::move(detect_events(profile), std::back_inserter(*events));
         }
     }
     return events;
@@ -290,7 +295,9 @@ TripTrace trace_of(const TripLog& trip,
             }
         }
         const auto vibrating = car_from_vibration(spectra, vehicle);
-        estimator.tracks = estimator.tracks && !vibrating.found_axles;
+        if (vibrating.found_axles && estimator.tracks && !estimator.sensors) {
+            estimator.sensors = SensorSet{.vertical = true, .pitch = true, .yaw = true};
+        }
         mount = vibrating.mount;
         car = car_in(
             stretch_of(longest), vibrating.vehicle, estimator, progress.stop, vibrating.mount);

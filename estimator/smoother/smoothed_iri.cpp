@@ -1,10 +1,12 @@
 #include "estimator/smoother/smoothed_iri.hpp"
 
+#include "estimator/smoother/car/linear_car.hpp"
 #include "estimator/smoother/friction.hpp"
 #include "estimator/smoother/stretch_record.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace macadam {
@@ -95,8 +97,12 @@ void append(const RoadEstimate& estimate,
 }
 
 /// Appends the rectified strokes of cells [from, to), and the headline's scatter.
-void append(const RoadEstimate& estimate, std::ptrdiff_t from, std::ptrdiff_t to, IriRun& onto) {
-    if (estimate.felt.half && estimate.felt.mean) {
+void append(const RoadEstimate& estimate,
+            std::ptrdiff_t from,
+            std::ptrdiff_t to,
+            bool tracks,
+            IriRun& onto) {
+    if (tracks && estimate.felt.half && estimate.felt.mean) {
         append(estimate.left_mm_per_m, estimate.grid, from, to, onto.left_mm_per_m);
         append(estimate.right_mm_per_m, estimate.grid, from, to, onto.right_mm_per_m);
         append(estimate.tracks_scatter, estimate.grid, from, to, onto.scatter_mm_per_m);
@@ -168,6 +174,11 @@ TunedCar car_in(const Stretch& stretch,
                 const std::stop_token& stop,
                 const Resonance& mount) {
     auto passage = passage_of(stretch, vehicle, config, mount);
+    if (!config.tracks && !config.sensors) { // roll then serves HRI/MRI only
+        const auto roll = static_cast<std::size_t>(Channel::roll_rate);
+        passage.felt[roll].clear();
+        passage.variance[roll].clear();
+    }
     if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
         return {.vehicle = vehicle,
                 .friction_n =
@@ -216,7 +227,7 @@ IriRun smoothed_iri(const Stretch& stretch,
         const auto piece = piece_at(passage, cell, end, smoother.cell_m, pieces);
         const auto estimate = smooth_passages(
             {{piece_of(passage, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
-        append(estimate, piece.from, piece.to, run);
+        append(estimate, piece.from, piece.to, config.tracks || config.sensors, run);
         if (!vehicle.axles) {
             run.scatter_mm_per_m.clear(); // it excludes what one axle misses
         }

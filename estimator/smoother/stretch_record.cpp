@@ -113,10 +113,12 @@ sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfi
         named.pitch = named.pitch && vehicle.axles; // a one-axle car does not pitch
         return named;
     }
-    const bool rolls = config.tracks && vehicle.axles && !stretch.roll_radps.empty();
+    const bool rolls = vehicle.axles && !stretch.roll_radps.empty() &&
+                       (config.tracks || !stretch.vertical_mps2.empty());
     const bool alone = stretch.vertical_mps2.empty() && !rolls;
     return {.vertical = true,
-            .lateral = alone || (rolls && vehicle.imu.height_above_roll_axis_m > 0),
+            .lateral =
+                alone || (rolls && config.tracks && vehicle.imu.height_above_roll_axis_m > 0),
             .roll = rolls,
             .pitch = vehicle.axles.has_value(),
             .yaw = true};

@@ -1,10 +1,12 @@
 #include "mapping/passes/pass.hpp"
 
 #include "estimator/roughness/roughness_mean.hpp"
+#include "mapping/passes/track_difference.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -84,11 +86,14 @@ Known sum_of(const Known& sum, const Known& value, double weight) {
     return sum && value ? Known{*sum + weight * *value} : std::nullopt;
 }
 
-Reading read(const Traversal& traversal, const IriTrace& roughness, const Vehicle& vehicle) {
+Reading read(const Traversal& traversal,
+             const IriTrace& roughness,
+             const std::optional<TrackDifference>& tracks,
+             const Vehicle& vehicle) {
     Reading reading;
     for (const auto& range : traversal.travel) {
         const auto mean = mean_over(roughness, range.from_m, range.to_m, vehicle);
-        const auto headline = headline_of(mean);
+        const auto headline = headline_of(mean, ratio_over(tracks, range.from_m, range.to_m));
         const double w = mean.covered_m;
         if (!headline || !(w > 0)) {
             continue;
@@ -152,12 +157,13 @@ Pass quantised(const Traversal& traversal, const Reading& r, double covered_m) {
 
 std::optional<Pass> pass_of(const Traversal& traversal,
                             const IriTrace& roughness,
+                            const std::optional<TrackDifference>& tracks,
                             const Vehicle& vehicle,
                             const PassConfig& config) {
     if (traversal.confident_m < config.min_confidence * traversal.offset_m) {
         return std::nullopt;
     }
-    const auto reading = read(traversal, roughness, vehicle);
+    const auto reading = read(traversal, roughness, tracks, vehicle);
     // Metres of travel represent metres of road; a match that stepped back covers none twice.
     const double covered_m =
         std::min(traversal.segment_m, reading.covered_m * traversal.offset_m / driven_m(traversal));
@@ -172,29 +178,18 @@ std::optional<Pass> pass_of(const Traversal& traversal,
 } // namespace
 
 std::optional<Headline> headline_of(const IriMean& mean) {
-    if (mean.mri_mm_per_m) {
-        return Headline{*mean.mri_mm_per_m, mean.sd_mm_per_m, false};
-    }
-    if (!mean.hri_mm_per_m) {
-        return std::nullopt;
-    }
-    // The relative variances of a quotient add up:
-    // (hri sd / ratio)^2 + (iri * sd of ratio / ratio)^2.
-    const double iri = *mean.hri_mm_per_m / hri_over_mri;
-    return Headline{
-        iri,
-        std::hypot(mean.sd_mm_per_m / hri_over_mri, iri * sd_hri_over_mri / hri_over_mri),
-        true};
+    return headline_of(mean, {hri_over_mri, sd_hri_over_mri});
 }
 
 std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
                                       const IriTrace& roughness,
                                       const Vehicle& vehicle,
                                       const PassConfig& config) {
+    const auto tracks = track_difference_of(roughness);
     std::vector<DrivenPass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
     for (auto& traversal : traversals_of(parts)) {
-        if (auto pass = pass_of(traversal, roughness, vehicle, config)) {
+        if (auto pass = pass_of(traversal, roughness, tracks, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;
             passes.push_back({*pass, std::move(traversal.parts)});
         }

@@ -2,9 +2,11 @@
 
 #include "estimator/roughness/roughness_mean.hpp"
 #include "mapping/passes/segment_overlap.hpp"
+#include "mapping/passes/track_difference.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 namespace macadam {
@@ -50,9 +52,12 @@ double travel_at(std::span<const Knot> knots, double station_m) {
                      (station_m - before->station_m) / (next->station_m - before->station_m));
 }
 
-TraceCell cell_over(const TravelSpan& travel, const IriTrace& roughness, const Vehicle& vehicle) {
+TraceCell cell_over(const TravelSpan& travel,
+                    const IriTrace& roughness,
+                    const std::optional<TrackDifference>& tracks,
+                    const Vehicle& vehicle) {
     const auto mean = mean_over(roughness, travel.from_m, travel.to_m, vehicle);
-    const auto headline = headline_of(mean);
+    const auto headline = headline_of(mean, ratio_over(tracks, travel.from_m, travel.to_m));
     if (!headline || !(mean.covered_m >= min_cover * (travel.to_m - travel.from_m))) {
         return {};
     }
@@ -80,6 +85,7 @@ std::int32_t place_sd_mm(std::span<const SegmentOverlap> parts) {
 RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
                         const TravelSpan& readable,
                         const IriTrace& roughness,
+                        const std::optional<TrackDifference>& tracks,
                         const RoadNetwork& roads,
                         const Vehicle& vehicle) {
     const auto knots = knots_of(parts);
@@ -90,7 +96,7 @@ RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
     for (auto metre = first; metre < last; ++metre) {
         const TravelSpan travel{travel_at(knots, metre), travel_at(knots, metre + 1)};
         const bool is_readable = travel.from_m >= readable.from_m && travel.to_m <= readable.to_m;
-        cells.push_back(is_readable ? cell_over(travel, roughness, vehicle) : TraceCell{});
+        cells.push_back(is_readable ? cell_over(travel, roughness, tracks, vehicle) : TraceCell{});
     }
     return with_cells({.chunk = chunk_of(parts.front().segment, roads.segment_length_m),
                        .drive = *parts.front().drive,
@@ -112,6 +118,7 @@ std::vector<RoughnessTrace> extract_traces(std::vector<SegmentOverlap> parts,
                                            const IriTrace& roughness,
                                            const RoadNetwork& roads,
                                            const Vehicle& vehicle) {
+    const auto tracks = track_difference_of(roughness);
     std::vector<RoughnessTrace> traces;
     std::erase_if(parts, [](const SegmentOverlap& part) { return !part.drive; });
     for (auto first = parts.begin(); first != parts.end();) {
@@ -119,7 +126,7 @@ std::vector<RoughnessTrace> extract_traces(std::vector<SegmentOverlap> parts,
         while (last != parts.end() && is_same_drive(*first, *last, roads.segment_length_m)) {
             ++last;
         }
-        auto trace = trace_of({first, last}, readable, roughness, roads, vehicle);
+        auto trace = trace_of({first, last}, readable, roughness, tracks, roads, vehicle);
         if (!trace.iri.empty()) {
             traces.push_back(std::move(trace));
         }

@@ -170,14 +170,17 @@ TEST(SmoothedIri, TakesTheSensorsThatItIsTold) {
     EXPECT_THAT(alone.left_mm_per_m, SizeIs(run.left_mm_per_m.size()));
 }
 
-/// The headline of a map: what feels the difference of the tracks stays out of it.
-TEST(SmoothedIri, WithoutTracksLeavesRollAndLateralOut) {
+/// The headline of a map: roll serves the ratio of HRI to MRI alone, by the profile.
+TEST(SmoothedIri, WithoutTracksGivesThoseOfTheProfileAlone) {
     auto config = smoother_config();
     config.tracks = false;
+    config.profile = true;
     const auto run = smoothed_iri(short_stretch(), known_car(), config);
-    const auto alone = run_by(short_stretch(), {.vertical = true, .pitch = true});
+    const auto by_roll =
+        run_by(short_stretch(), {.vertical = true, .roll = true, .pitch = true, .yaw = true});
     EXPECT_THAT(run.left_mm_per_m, IsEmpty());
-    EXPECT_EQ(run.centre_mm_per_m, alone.centre_mm_per_m);
+    EXPECT_EQ(run.centre_mm_per_m, by_roll.centre_mm_per_m);
+    EXPECT_THAT(run.profile.left_m, SizeIs(run.profile.centre_m.size()));
 }
 
 TEST(SmoothedIri, WithTracksTakesLateralOnlyBesideRollAndAKnownHeight) {

@@ -1,4 +1,5 @@
 #include "estimator/roughness/roughness_mean.hpp"
+#include "mapping/passes/track_difference.hpp"
 #include "mapping/passes/trip_cutting.hpp"
 
 #include "support/roads/road_art.hpp"
@@ -9,6 +10,9 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <optional>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -198,6 +202,56 @@ TEST(Passes, SayWhatTheCentreAloneTellsOfBothTracks) {
     const auto mean = mean_over(trace, 0, passes[0].covered_mm / 1000.0, car());
     const double relative = std::hypot(mean.sd_mm_per_m / 1.82, 0.055 / 0.91);
     EXPECT_NEAR(passes[0].sd_um, 2000 * relative, 1);
+}
+
+/// Run over two independent random walks: their mean has an HRI of 2, and half of their difference
+/// is `times` as high from `from_m` on.
+IriTrace over_two_tracks(double length_m, double leaning, double from_m, double times) {
+    std::mt19937 random{5};
+    std::normal_distribution<float> step{0, 1e-3F};
+    auto run = empty_run();
+    run.profile.step_m = run.cell_m;
+    float mean = 0;
+    float half = 0;
+    for (double at_m = 0; at_m < length_m; at_m += run.cell_m) {
+        mean += step(random);
+        half += static_cast<float>(leaning * (at_m < from_m ? 1 : times)) * step(random);
+        run.profile.left_m.push_back(mean + half);
+        run.profile.right_m.push_back(mean - half);
+        run.profile.centre_m.push_back(mean);
+        run.centre_mm_per_m.push_back(2);
+        run.speed_mps.push_back(15);
+    }
+    return trace_of(std::move(run));
+}
+
+TEST(HriRatio, FallsWhereTheTracksDifferMoreThanElsewhereOnTheTrip) {
+    const auto tracks = track_difference_of(over_two_tracks(8000, 0.5, 7500, 1.3));
+    ASSERT_TRUE(tracks);
+    EXPECT_NEAR(ratio_over(tracks, 100, 7400).hri_over_mri, 0.91, 0.01);
+    // r^2 of 1.69 times the usual, of which 0.6 is believed: 1/sqrt(1 + 0.2076 * 1.414) = 0.879
+    EXPECT_NEAR(ratio_over(tracks, 7600, 7990).hri_over_mri, 0.879, 0.02);
+    EXPECT_LT(ratio_over(tracks, 100, 7400).sd, sd_hri_over_mri);
+}
+
+TEST(HriRatio, DoesNotDependOnHowMuchACarLeans) {
+    const auto tracks = track_difference_of(over_two_tracks(4000, 0.5, 2000, 1.2));
+    const auto leaning = track_difference_of(over_two_tracks(4000, 0.7, 2000, 1.2));
+    ASSERT_TRUE(tracks && leaning);
+    for (const double from_m : {100.0, 1000.0, 3000.0}) {
+        EXPECT_NEAR(ratio_over(tracks, from_m, from_m + 20).hri_over_mri,
+                    ratio_over(leaning, from_m, from_m + 20).hri_over_mri,
+                    1e-3); // elevations are single precision
+    }
+}
+
+TEST(HriRatio, IsTheUsualOneWhereTheDifferenceIsUnknown) {
+    EXPECT_FALSE(track_difference_of(even_trace(5000, 2)));
+    EXPECT_FALSE(track_difference_of(over_two_tracks(900, 0.5, 900, 1)));
+    EXPECT_EQ(ratio_over(std::nullopt, 0, 20).hri_over_mri, hri_over_mri);
+    const auto tracks = track_difference_of(over_two_tracks(2000, 0.5, 2000, 1));
+    EXPECT_EQ(ratio_over(tracks, 3000, 3020).hri_over_mri, hri_over_mri);
+    EXPECT_EQ(ratio_over(tracks, 3000, 3020).sd, sd_hri_over_mri);
 }
 
 } // namespace

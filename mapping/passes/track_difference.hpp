@@ -1,0 +1,48 @@
+#pragma once
+
+#include "estimator/roughness/roughness_trace.hpp"
+#include "mapping/passes/pass.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace macadam {
+
+/// Ratio of HRI to MRI with its standard deviation.
+struct HriRatio {
+    double hri_over_mri;
+    double sd;
+};
+
+/// IRI of half the difference of the wheel tracks along one run.
+struct DifferenceRun {
+    double start_travel_m;
+    double cell_m;
+    double lead_in_m;
+    std::vector<float> centre_mm_per_m; ///< HRI
+    std::vector<float> half_mm_per_m;
+};
+
+/// How the difference of the wheel tracks varies along a trip. Its square over HRI² is what MRI has
+/// beyond HRI: HRI/MRI = 1/sqrt(1 + r²) if both are Gaussian (docs/method/estimation.md).
+///
+/// The level of the difference is not used: cars lean on bushes and bars that no file states. It is
+/// scaled to the usual ratio over the trip, and what does not grow with HRI is noise.
+struct TrackDifference {
+    std::vector<DifferenceRun> runs;
+    double gain = 0;      ///< half² per HRI² over the trip
+    double noise_mm2 = 0; ///< half² where HRI is 0, (mm/m)²
+};
+
+/// Returns the difference of the tracks over the trip; `std::nullopt` if it was not observed over
+/// at least a kilometre.
+std::optional<TrackDifference> track_difference_of(const IriTrace& trace);
+
+/// Returns the ratio over travel [from_m, to_m], widened to at least 20 m: the usual one where the
+/// difference is unknown.
+HriRatio ratio_over(const std::optional<TrackDifference>& difference, double from_m, double to_m);
+
+/// Returns the headline, with MRI inferred from HRI by this ratio where the tracks are unknown.
+std::optional<Headline> headline_of(const IriMean& mean, const HriRatio& ratio);
+
+} // namespace macadam
