@@ -194,7 +194,12 @@ PipelineConfig config_of(bool smoother) {
 std::vector<RoadEvent> events_in(const IriTrace& roughness) {
     std::vector<RoadEvent> events;
     for (const auto& run : roughness.runs) {
-        std::ranges::move(detect_events(run.profile), std::back_inserter(events));
+        auto profile = run.profile;
+        if (run.left_mm_per_m.empty()) { // as passes_of
+            profile.left_m.clear();
+            profile.right_m.clear();
+        }
+        std::ranges::move(detect_events(profile), std::back_inserter(events));
     }
     return events;
 }
