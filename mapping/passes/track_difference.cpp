@@ -28,6 +28,7 @@ constexpr double degrees = 4;       // of Student's t
 constexpr double scatter = 0.6;     // relative, of half² over one window
 constexpr double min_spread = 1e-6; // relative, of HRI²: below, noise cannot be told from the road
 constexpr int rounds = 20;
+constexpr double elasticity = 0.1; // of a trip's mean MRI over the level, about; steps stay below 1
 
 /// Mean HRI and difference over a range of travel past the lead-ins.
 struct Strength {
@@ -80,6 +81,12 @@ struct Level {
     double at(double hri2) const { return gain * hri2 + noise_mm2; }
 };
 
+/// HRI/MRI where half² exceeds its level by this factor.
+double ratio_at(double excess) {
+    const double usual_r2 = 1 / (hri_over_mri * hri_over_mri) - 1;
+    return 1 / std::sqrt(1 + usual_r2 * (1 + road_part * (excess - 1)));
+}
+
 /// Squares over one window.
 struct Squares {
     double hri2;
@@ -123,11 +130,29 @@ Level refitted(const std::vector<Squares>& windows, const Level& old) {
     return {xy / xx, 0};
 }
 
+/// Excess of half² over its level.
+double excess_of(const Level& level, const Squares& window) {
+    return std::min(window.half2 / level.at(window.hri2), max_excess);
+}
+
 /// Fits the level with Student's t for relative deviations: bends and single defects do not count.
+/// Then scales it so that the mean MRI of the windows is that of the usual ratio: what the fit
+/// takes for outliers lies above it, which would raise a whole trip.
 Level level_of(const std::vector<Squares>& windows) {
     Level level{median_ratio(windows), 0};
     for (int round = 0; round < rounds && level.gain > 0; ++round) {
         level = refitted(windows, level);
+    }
+    for (int round = 0; round < rounds && level.gain > 0; ++round) {
+        double usual = 0;
+        double found = 0;
+        for (const auto& window : windows) {
+            const double hri = std::sqrt(window.hri2);
+            usual += hri / hri_over_mri;
+            found += hri / ratio_at(excess_of(level, window));
+        }
+        const double factor = std::pow(found / usual, 1 / elasticity);
+        level = {level.gain * factor, level.noise_mm2 * factor};
     }
     return level;
 }
@@ -181,10 +206,8 @@ HriRatio ratio_over(const std::optional<TrackDifference>& difference, double fro
     }
     const double hri2 = std::pow(sum.centre / sum.covered_m, 2);
     const double half2 = std::pow(sum.half / sum.covered_m, 2);
-    const double expected = difference->gain * hri2 + difference->noise_mm2;
-    const double excess = std::min(half2 / expected, max_excess);
-    const double usual_r2 = 1 / (hri_over_mri * hri_over_mri) - 1;
-    return {1 / std::sqrt(1 + usual_r2 * (1 + road_part * (excess - 1))), sd_of_found_ratio};
+    const Level level{difference->gain, difference->noise_mm2};
+    return {ratio_at(excess_of(level, {hri2, half2})), sd_of_found_ratio};
 }
 
 std::optional<Headline> headline_of(const IriMean& mean, const HriRatio& ratio) {
