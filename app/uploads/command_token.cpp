@@ -180,8 +180,7 @@ constexpr std::array options{
     one_of("upload|read|operator",
            {"--scope",
             "SCOPE",
-            "upload: send trips, see and delete the own ones. read: read a server with "
-            "--only-with-token. operator: everything.",
+            "upload: send trips, see and delete one's own. read: read a server. operator: all.",
             "upload"}),
     Option{"--days", "N", "Days until it expires.", "365"},
     Option{"--url", "URL", "With 'invite': the public address of the server."},
@@ -197,8 +196,9 @@ const Command token_command{
              "256 random bits, and only its SHA-256 is kept, in the folder STORE.uploads/ beside "
              "the database. Clients send it\n"
              "as 'Authorization: Bearer TOKEN', or as the password of HTTP Basic with any user "
-             "name. 'invite' prints the address of the recorder with an invitation, by which one "
-             "phone gets a token within 14 days.",
+             "name.\n"
+             "'invite' prints the address of the recorder with an invitation, by which one phone "
+             "gets a token within 14 days.",
     .example = "  macadam token create roads.gpkg anna\n"
                "  macadam token create roads.gpkg office --scope operator --days 30\n"
                "  macadam token invite roads.gpkg ben --url https://roads.example.org\n"
