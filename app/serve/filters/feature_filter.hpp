@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/serve/filters/cql2_expression.hpp"
 #include "app/serve/features/coordinate_reference.hpp"
 #include "app/serve/features/feature.hpp"
+#include "app/serve/filters/cql2_expression.hpp"
 #include "estimator/common/geo.hpp"
 
 #include <optional>

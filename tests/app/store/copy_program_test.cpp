@@ -45,12 +45,13 @@ TEST_F(CopyProgram, CopiesThereAndBackAndSaysTheDigest) {
 
 TEST_F(CopyProgram, LetsTheServersDatabaseBeReadLikeTheFile) {
     ASSERT_EQ(run_macadam({"copy", file_, address_}).exit_status, 0);
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", "--digest"},
-                                                  {"info", "--table", "classes"},
-                                                  {"query", "--worst", "3", "--json"},
-                                                  {"query", "--road", "rue", "--json"},
-                                                  {"query", "--segment", "1+0003", "--json"},
-                                                  {"query", "--way", "1", "--since", "2025-12", "--json"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"info", "--digest"},
+          {"info", "--table", "classes"},
+          {"query", "--worst", "3", "--json"},
+          {"query", "--road", "rue", "--json"},
+          {"query", "--segment", "1+0003", "--json"},
+          {"query", "--way", "1", "--since", "2025-12", "--json"}}) {
         const auto run_on = [&](const std::string& store) {
             auto all = words;
             all.insert(all.begin() + 1, store);
