@@ -240,11 +240,9 @@ TEST(Upload, IsForgottenAlsoWhileItWaits) {
     EXPECT_EQ(world.digest(), before);
 }
 
-/// Number of kills: a few in each run of the tests, more if asked for.
+/// A few kills in each run of the tests, more in the long one.
 int kills() {
-    constexpr int usual = 24;
-    const auto* const asked = std::getenv("MACADAM_KILLS");
-    return asked == nullptr ? usual : std::atoi(asked);
+    return std::getenv("MACADAM_TEST_ALL") != nullptr ? 100 : 24;
 }
 
 TEST(Upload, IsNeverLostNorCountedTwiceByKilledServers) {
