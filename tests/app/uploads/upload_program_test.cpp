@@ -242,7 +242,7 @@ TEST(Upload, IsForgottenAlsoWhileItWaits) {
 
 /// A few kills in each run of the tests, more in the long one.
 int kills() {
-    return std::getenv("MACADAM_TEST_ALL") != nullptr ? 100 : 24;
+    return std::getenv("MACADAM_TEST_ALL") != nullptr ? 50 : 24;
 }
 
 TEST(Upload, IsNeverLostNorCountedTwiceByKilledServers) {
