@@ -46,7 +46,7 @@ struct HttpRecord {
     std::chrono::microseconds duration; ///< from head to queued response
 };
 
-/// What becomes of a request whose head has been read.
+/// Decision about a request whose head has been read.
 struct HttpAdmission {
     std::optional<HttpResponse> refusal{}; ///< sent in place of an answer
     std::shared_ptr<HttpBody> body{};      ///< receives the request's body; null: it is dropped

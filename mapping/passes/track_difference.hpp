@@ -23,8 +23,8 @@ struct DifferenceRun {
     std::vector<float> half_mm_per_m;
 };
 
-/// How the difference of the wheel tracks varies along a trip. Its square over HRI² is what MRI has
-/// beyond HRI: HRI/MRI = 1/sqrt(1 + r²) if both are Gaussian (docs/method/estimation.md).
+/// Variation of the difference of the wheel tracks along a trip. Its square over HRI² is what MRI
+/// has beyond HRI: HRI/MRI = 1/sqrt(1 + r²) if both are Gaussian (docs/method/estimation.md).
 ///
 /// The level of the difference is not used: cars lean on bushes and bars that no file states. It is
 /// scaled to the usual ratio over the trip, and what does not grow with HRI is noise.

@@ -32,7 +32,7 @@ std::string iri_words(double mm_per_m, UnitSystem units);
 /// Formats kilometres for people: "12.3 km", "7.6 mi".
 std::string km_words(double km, int decimals, UnitSystem units);
 
-/// How roughness is written without its unit.
+/// Format of a roughness value without its unit.
 struct IriScale {
     double of_mm_per_m; ///< units of one mm/m
     int decimals;

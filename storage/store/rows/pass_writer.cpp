@@ -1,5 +1,7 @@
 #include "storage/store/rows/pass_writer.hpp"
 
+#include "storage/store/rows/pass_row.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <string_view>
@@ -8,11 +10,6 @@
 
 namespace macadam {
 namespace {
-
-template <typename Integer>
-std::optional<std::int64_t> whole(const std::optional<Integer>& number) {
-    return number ? std::optional<std::int64_t>{*number} : std::nullopt;
-}
 
 std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
     return {reinterpret_cast<const char*>(codes.data()), codes.size()};
@@ -60,21 +57,7 @@ void PassWriter::flush() {
 }
 
 void PassWriter::write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass) {
-    add_pass_.add(segment,
-                  trip,
-                  std::int64_t{pass.occurrence},
-                  whole(pass.iri_left_um),
-                  whole(pass.iri_right_um),
-                  whole(pass.iri_centre_um),
-                  std::int64_t{pass.iri_um},
-                  std::int64_t{pass.sd_um},
-                  pass.centre_only,
-                  std::int64_t{pass.validity},
-                  std::int64_t{pass.speed_mmps},
-                  std::int64_t{pass.covered_mm},
-                  std::int64_t{pass.confidence_ppm},
-                  pass.t_ms,
-                  whole(pass.drive));
+    add_pass_row(add_pass_, segment, trip, pass, whole(pass.drive));
 }
 
 /// Numbers the events of each pass in the order along the way.

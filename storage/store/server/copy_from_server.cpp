@@ -5,6 +5,7 @@
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/ewkb.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
+#include "storage/store/rows/pass_row.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/rows/store_digest.hpp"
 #include "storage/store/schema/new_store.hpp"
@@ -188,30 +189,17 @@ private:
                                       column_list(table)),
                           table.name,
                           columns_of(table)};
-        const auto whole = [](const std::optional<IriUm>& um) {
-            return um ? std::optional<std::int64_t>{*um} : std::nullopt;
-        };
         std::size_t done = 0;
         while (reader.next()) {
             const auto& row = reader.row();
             const auto chunk = row.integer(1), trip = row.integer(2), drive = row.integer(3);
             for (const auto& [offset, pass] :
                  server_passes_in(*server_, row.bytes(5), chunk_size())) {
-                passes.add(chunk + offset,
-                           trip,
-                           std::int64_t{pass.occurrence},
-                           whole(pass.iri_left_um),
-                           whole(pass.iri_right_um),
-                           whole(pass.iri_centre_um),
-                           std::int64_t{pass.iri_um},
-                           std::int64_t{pass.sd_um},
-                           pass.centre_only,
-                           std::int64_t{pass.validity},
-                           std::int64_t{pass.speed_mmps},
-                           std::int64_t{pass.covered_mm},
-                           std::int64_t{pass.confidence_ppm},
-                           pass.t_ms,
-                           drive >= 0 ? std::optional{drive} : std::nullopt);
+                add_pass_row(passes,
+                             chunk + offset,
+                             trip,
+                             pass,
+                             drive >= 0 ? std::optional{drive} : std::nullopt);
             }
             if (!row.is_null(6)) {
                 traces.run(chunk,
