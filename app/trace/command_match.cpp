@@ -117,8 +117,9 @@ void run_match(const Arguments& arguments, const Console& console) {
     console.say(matched_words(trace, trip.motion.odometer, options.units));
 
     const auto text =
-        options.arcs ? arcs_text(trace, roads, options.format)
-                     : passages_text(edge_traversals(trace), roads, options.format, options.units);
+        options.arcs
+            ? arcs_text(trace, roads, options.format)
+            : traversals_text(edge_traversals(trace), roads, options.format, options.units);
     RowOutput output{options.output};
     print(text);
     output.commit();
@@ -156,7 +157,7 @@ const Command match_command{
     .name = "match",
     .summary = "Match a trip to the road network",
     .about =
-        "One row for each passage of an edge, in driving order: from_m and to_m along the way, "
+        "One row for each traversal of an edge, in driving order: from_m and to_m along the way, "
         "times, and a\n"
         "confidence from 0 to 1. Parts off the network and gaps in the positions are separate "
         "rows with their\n"

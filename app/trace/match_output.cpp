@@ -122,9 +122,9 @@ std::string feature_of(const Row& row, const Columns<Row>& columns) {
                         : geojson_feature({}, {}, json_object(interval_columns, row));
 }
 
-std::vector<Row> rows_of(const MatchedTrace& passages, const RoadNetwork& roads) {
+std::vector<Row> rows_of(const MatchedTrace& traversals, const RoadNetwork& roads) {
     std::vector<Row> rows;
-    for (const auto& interval : passages) {
+    for (const auto& interval : traversals) {
         rows.push_back({interval, roads});
     }
     return rows;
@@ -144,12 +144,12 @@ double paused_within_m(const MatchedInterval& piece, const Odometer& odometer) {
 
 } // namespace
 
-std::string passages_text(const MatchedTrace& passages,
-                          const RoadNetwork& roads,
-                          std::string_view format,
-                          UnitSystem units) {
+std::string traversals_text(const MatchedTrace& traversals,
+                            const RoadNetwork& roads,
+                            std::string_view format,
+                            UnitSystem units) {
     const auto columns = all_columns(units);
-    return rows_text(columns, rows_of(passages, roads), format, [&](const Row& row) {
+    return rows_text(columns, rows_of(traversals, roads), format, [&](const Row& row) {
         return feature_of(row, columns);
     });
 }

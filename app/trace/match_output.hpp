@@ -10,12 +10,12 @@ namespace macadam {
 
 /// Formats a matched trip as the rows of `match`: one for each traversal of an edge, each part off
 /// the network and each gap.
-/// \param passages  result of edge_traversals
+/// \param traversals  result of edge_traversals
 /// \param format    csv, json or geojson: a line for each traversal, no geometry for the rest
-std::string passages_text(const MatchedTrace& passages,
-                          const RoadNetwork& roads,
-                          std::string_view format,
-                          UnitSystem units);
+std::string traversals_text(const MatchedTrace& traversals,
+                            const RoadNetwork& roads,
+                            std::string_view format,
+                            UnitSystem units);
 
 /// Lists every pair of consecutive nodes as driven, for `match --arcs`.
 /// \param format  csv or json

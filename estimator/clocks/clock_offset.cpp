@@ -47,15 +47,15 @@ struct Step {
     double left_mps; ///< turn times speed: the integral of lateral acceleration
 };
 
-struct Knot {
+struct SpeedSample {
     double t_s;
     double speed_mps;
     double course_rad; ///< NaN: unknown
 };
 
 /// Speeds and courses at the fixes, or, where the receiver gives none, from chord to chord.
-std::vector<Knot> knots_of(const std::vector<GnssFix>& fixes) {
-    std::vector<Knot> knots;
+std::vector<SpeedSample> speeds_of(const std::vector<GnssFix>& fixes) {
+    std::vector<SpeedSample> samples;
     const GnssFix* last = nullptr;
     const auto course = [](double speed_mps, double deg) {
         return speed_mps >= min_turning_mps ? deg * rad_per_deg
@@ -67,24 +67,24 @@ std::vector<Knot> knots_of(const std::vector<GnssFix>& fixes) {
         }
         const auto speed_mps = static_cast<double>(fix.speed_mps);
         if (std::isfinite(speed_mps)) {
-            knots.push_back({fix.t_s, speed_mps, course(speed_mps, fix.course_deg)});
+            samples.push_back({fix.t_s, speed_mps, course(speed_mps, fix.course_deg)});
         } else if (last != nullptr && std::isfinite(distance_m(last->at, fix.at))) {
             const double mean_mps = distance_m(last->at, fix.at) / (fix.t_s - last->t_s);
-            knots.push_back({(last->t_s + fix.t_s) / 2,
-                             mean_mps,
-                             course(mean_mps, course_deg(last->at, fix.at))});
+            samples.push_back({(last->t_s + fix.t_s) / 2,
+                               mean_mps,
+                               course(mean_mps, course_deg(last->at, fix.at))});
         }
         last = &fix;
     }
-    return knots;
+    return samples;
 }
 
 std::vector<Step> steps_of(const std::vector<GnssFix>& fixes) {
-    const auto knots = knots_of(fixes);
+    const auto samples = speeds_of(fixes);
     std::vector<Step> steps;
-    for (std::size_t i = 1; i < knots.size(); ++i) {
-        const auto& [from_s, from_mps, from_rad] = knots[i - 1];
-        const auto& [to_s, to_mps, to_rad] = knots[i];
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const auto& [from_s, from_mps, from_rad] = samples[i - 1];
+        const auto& [to_s, to_mps, to_rad] = samples[i];
         if (to_s - from_s <= max_fix_step_s && to_s > from_s) {
             const double left_rad = std::remainder(from_rad - to_rad, 2 * std::numbers::pi);
             steps.push_back(

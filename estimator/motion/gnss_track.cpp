@@ -70,16 +70,16 @@ double farthest_m(const GnssPosition& a,
 }
 
 /// Path between two positions that the car certainly travelled.
-struct Leg {
+struct TravelSpan {
     double begin_s;
     double end_s;
     double length_m;
     bool known; ///< measured throughout
 };
 
-class LegMaker {
+class SpanMaker {
 public:
-    LegMaker(const GnssPosition& first, double max_gap_s)
+    SpanMaker(const GnssPosition& first, double max_gap_s)
         : max_gap_s_{max_gap_s}, anchor_{first}, last_{first} {}
 
     void go_to(const GnssPosition& place) {
@@ -92,13 +92,13 @@ public:
     }
 
     /// The car is taken as standing if the last position is too near to the anchor.
-    std::vector<Leg> finish() {
+    std::vector<TravelSpan> finish() {
         if (last_.t_s > anchor_.t_s) {
-            const bool still = !legs_.empty() || standing_since_anchor();
-            legs_.push_back(
+            const bool still = !spans_.empty() || standing_since_anchor();
+            spans_.push_back(
                 {anchor_.t_s, last_.t_s, still ? 0 : distance_m(anchor_.at, last_.at), seen_});
         }
-        return std::move(legs_);
+        return std::move(spans_);
     }
 
 private:
@@ -109,10 +109,10 @@ private:
     void leave_for(const GnssPosition& place, double moved_m) {
         const bool stood = moved_m < standing_mps * (place.t_s - anchor_.t_s);
         if (stood && last_.t_s > anchor_.t_s) {
-            legs_.push_back({anchor_.t_s, last_.t_s, 0, seen_});
-            legs_.push_back({last_.t_s, place.t_s, moved_m, seen_});
+            spans_.push_back({anchor_.t_s, last_.t_s, 0, seen_});
+            spans_.push_back({last_.t_s, place.t_s, moved_m, seen_});
         } else {
-            legs_.push_back({anchor_.t_s, place.t_s, moved_m, seen_});
+            spans_.push_back({anchor_.t_s, place.t_s, moved_m, seen_});
         }
         anchor_ = place;
         seen_ = true;
@@ -122,29 +122,29 @@ private:
     GnssPosition anchor_;
     GnssPosition last_;
     bool seen_ = true;
-    std::vector<Leg> legs_;
+    std::vector<TravelSpan> spans_;
 };
 
-/// Returns the speed at a border of two legs: their mean, or that of the known one.
-float speed_between(const Leg& before, const Leg& after) {
+/// Returns the speed at a border of two spans: their mean, or that of the known one.
+float speed_between(const TravelSpan& before, const TravelSpan& after) {
     const double first_mps = before.length_m / (before.end_s - before.begin_s);
     const double second_mps = after.length_m / (after.end_s - after.begin_s);
     return static_cast<float>(before.known ? (first_mps + second_mps) / 2 : second_mps);
 }
 
-Odometer::Knots knots_of(const std::vector<Leg>& legs) {
+Odometer::Knots knots_of(const std::vector<TravelSpan>& spans) {
     constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
     Odometer::Knots knots;
     double travel_m = 0;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-        const auto& leg = legs[i];
-        knots.t_s.push_back(leg.begin_s);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const auto& span = spans[i];
+        knots.t_s.push_back(span.begin_s);
         knots.travel_m.push_back(travel_m);
-        knots.speed_mps.push_back(leg.known ? speed_between(legs[i == 0 ? 0 : i - 1], leg)
-                                            : unknown);
-        travel_m += leg.length_m;
+        knots.speed_mps.push_back(span.known ? speed_between(spans[i == 0 ? 0 : i - 1], span)
+                                             : unknown);
+        travel_m += span.length_m;
     }
-    const auto& last = legs.back();
+    const auto& last = spans.back();
     knots.t_s.push_back(last.end_s);
     knots.travel_m.push_back(travel_m);
     knots.speed_mps.push_back(last.known ? speed_between(last, last) : unknown);
@@ -185,7 +185,7 @@ std::optional<Odometer> odometer_of(const GnssTrack& track, const OdometerConfig
     if (track.places.size() < 2) {
         return std::nullopt;
     }
-    LegMaker maker{track.places.front(), config.max_gap_s};
+    SpanMaker maker{track.places.front(), config.max_gap_s};
     for (std::size_t i = 1; i < track.places.size(); ++i) {
         maker.go_to(track.places[i]);
     }

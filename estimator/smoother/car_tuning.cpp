@@ -108,7 +108,7 @@ struct TuningConfig {
     std::stop_token stop;
 };
 
-RoadEstimate run(const DriveRecord& passage,
+RoadEstimate run(const DriveRecord& drive,
                  const Point& point,
                  const TuningConfig& config,
                  int rounds,
@@ -116,12 +116,12 @@ RoadEstimate run(const DriveRecord& passage,
     if (config.stop.stop_requested()) {
         throw InputError{"interrupted"};
     }
-    CarPassage car{passage, point.vehicle, point.friction_n};
-    car.passage.cars = cars_with_friction(point.vehicle, passage.cars.front().step_s);
+    VehicleDrive car{drive, point.vehicle, point.friction_n};
+    car.drive.cars = cars_with_friction(point.vehicle, drive.cars.front().step_s);
     auto once = config.smoother;
     once.rounds = rounds;
     once.settling = rounds - 1;
-    return smooth_passages({std::move(car)}, once, begin);
+    return smooth_drives({std::move(car)}, once, begin);
 }
 
 double mean_stroke(const RoadEstimate& estimate) {
@@ -175,7 +175,7 @@ struct Friction {
     double iri_per_n; ///< relative
 };
 
-Friction friction_of(const DriveRecord& passage, Point point, const TuningConfig& config) {
+Friction friction_of(const DriveRecord& drive, Point point, const TuningConfig& config) {
     const double size = point.vehicle.half_car.ms_kg / usual_mass_kg;
     const double step_n = friction_step_n * size;
     std::vector<RoadEstimate> at; // each from an even road, to treat all alike
@@ -183,7 +183,7 @@ Friction friction_of(const DriveRecord& passage, Point point, const TuningConfig
     while (at.size() < 3 || (likelihood(at.size() - 1) > likelihood(at.size() - 2) &&
                              static_cast<double>(at.size()) * step_n < max_friction_n * size)) {
         point.friction_n = static_cast<double>(at.size()) * step_n;
-        at.push_back(run(passage, point, config, first_rounds, nullptr));
+        at.push_back(run(drive, point, config, first_rounds, nullptr));
     }
     const std::size_t last = at.size() - 1;
     const double rise = likelihood(last) - likelihood(last - 2);
@@ -200,7 +200,7 @@ Friction friction_of(const DriveRecord& passage, Point point, const TuningConfig
 }
 
 /// Differentiates the likelihood about a point: the same road with one unknown moved at a time.
-Slope slope_about(const DriveRecord& passage,
+Slope slope_about(const DriveRecord& drive,
                   const Point& at,
                   const Unknowns& unknowns,
                   const TuningConfig& config,
@@ -209,10 +209,10 @@ Slope slope_about(const DriveRecord& passage,
     for (const auto& unknown : unknowns) {
         Point there = at;
         unknown.move(there, unknown.step);
-        beside.push_back(run(passage, there, config, more_rounds, &here));
+        beside.push_back(run(drive, there, config, more_rounds, &here));
     }
     // The reference point gets the same number of rounds, so that only the unknowns differ.
-    here = run(passage, at, config, more_rounds, &here);
+    here = run(drive, at, config, more_rounds, &here);
     return slope_at(here, beside, unknowns);
 }
 
@@ -222,7 +222,7 @@ struct Peak {
     double iri_sd; ///< relative; remaining uncertainty
 };
 
-Peak peak_about(const DriveRecord& passage,
+Peak peak_about(const DriveRecord& drive,
                 const Point& start,
                 const Unknowns& unknowns,
                 const TuningConfig& config) {
@@ -233,10 +233,10 @@ Peak peak_about(const DriveRecord& passage,
     }
     const Eigen::MatrixXd prior = prior_sd.array().square().inverse().matrix().asDiagonal();
     Peak peak{Eigen::VectorXd::Zero(n), 0};
-    auto here = run(passage, start, config, first_rounds, nullptr);
+    auto here = run(drive, start, config, first_rounds, nullptr);
     for (int step = 0; step < steps && n > 0; ++step) {
         const auto slope =
-            slope_about(passage, moved(start, unknowns, peak.by), unknowns, config, here);
+            slope_about(drive, moved(start, unknowns, peak.by), unknowns, config, here);
         const Eigen::MatrixXd left = (trust * slope.information + prior).inverse();
         peak.by += left * (trust * slope.gradient - prior * peak.by);
         peak.by = peak.by.cwiseMin(furthest * prior_sd).cwiseMax(-furthest * prior_sd);
@@ -247,7 +247,7 @@ Peak peak_about(const DriveRecord& passage,
 
 } // namespace
 
-TunedCar tuned_car(const DriveRecord& passage,
+TunedCar tuned_car(const DriveRecord& drive,
                    const Vehicle& vehicle,
                    const SmootherConfig& smoother,
                    const std::stop_token& stop) {
@@ -255,13 +255,13 @@ TunedCar tuned_car(const DriveRecord& passage,
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
     if (!vehicle.half_car.friction_n) {
-        const auto friction = friction_of(passage, point, config);
+        const auto friction = friction_of(drive, point, config);
         point.friction_n = friction.force_n;
         tuned.friction_sd_n = friction.sd_n;
         tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);
     }
     const auto unknowns = of_car(vehicle);
-    const auto peak = peak_about(passage, point, unknowns, config);
+    const auto peak = peak_about(drive, point, unknowns, config);
     point = moved(point, unknowns, peak.by);
     tuned.vehicle = point.vehicle;
     tuned.friction_n = point.friction_n;

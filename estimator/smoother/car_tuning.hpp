@@ -27,9 +27,9 @@ struct TunedCar {
 /// likelihood and that prior). The uncertainty of all others, of
 /// mass and damping above all, goes into iri_sd.
 ///
-/// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored
+/// \param drive  some 1,000 to 5,000 samples; its `cars` are ignored
 /// \throws InputError  after a stop request.
-TunedCar tuned_car(const DriveRecord& passage,
+TunedCar tuned_car(const DriveRecord& drive,
                    const Vehicle& vehicle,
                    const SmootherConfig& smoother,
                    const std::stop_token& stop = {});

@@ -34,17 +34,17 @@ std::vector<CarSteps> cars_with_friction(const Vehicle& vehicle, double step_s) 
     return all;
 }
 
-std::vector<std::uint8_t> damping_with_friction(const DriveRecord& passage,
+std::vector<std::uint8_t> damping_with_friction(const DriveRecord& drive,
                                                 const Vehicle& vehicle,
                                                 const RoadGrid& grid,
                                                 std::span<const std::vector<Pair>> roads_m,
                                                 double friction_n) {
-    const std::size_t n = passage.travel_m.size();
-    const auto& car = passage.cars.front().car;
+    const std::size_t n = drive.travel_m.size();
+    const auto& car = drive.cars.front().car;
     std::vector<double> work(n + 1);  // sums of rate * direction, ...
     std::vector<double> power(n + 1); // ... and of rate^2
     for (const auto& road_m : roads_m) {
-        const auto states = simulate_response(passage, grid, road_m);
+        const auto states = simulate_response(drive, grid, road_m);
         for (std::size_t k = 0; k < n; ++k) {
             for (const double rate : stroke_rates(states[k], car, vehicle.half_car.l_m)) {
                 work[k + 1] += rate * rate / std::hypot(rate, slip_mps);
@@ -61,10 +61,10 @@ std::vector<std::uint8_t> damping_with_friction(const DriveRecord& passage,
     std::size_t from = 0;
     std::size_t to = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        while (passage.travel_m[k] - passage.travel_m[from] > reach_m) {
+        while (drive.travel_m[k] - drive.travel_m[from] > reach_m) {
             ++from;
         }
-        while (to + 1 < n && passage.travel_m[to + 1] - passage.travel_m[k] <= reach_m) {
+        while (to + 1 < n && drive.travel_m[to + 1] - drive.travel_m[k] <= reach_m) {
             ++to;
         }
         const double seen = power[to + 1] - power[from];

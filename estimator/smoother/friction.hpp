@@ -19,7 +19,7 @@ std::vector<CarSteps> cars_with_friction(const Vehicle& vehicle, double step_s);
 ///
 /// Source: J. B. Roberts, P. D. Spanos, "Random Vibration and Statistical Linearization" (1990),
 /// section 5.2.
-std::vector<std::uint8_t> damping_with_friction(const DriveRecord& passage,
+std::vector<std::uint8_t> damping_with_friction(const DriveRecord& drive,
                                                 const Vehicle& vehicle,
                                                 const RoadGrid& grid,
                                                 std::span<const std::vector<Pair>> roads_m,

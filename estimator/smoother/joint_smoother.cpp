@@ -111,43 +111,43 @@ void add_roads(RoadEstimate& estimate, const std::vector<std::vector<Pair>>& roa
 }
 
 /// Initialises the estimate before the first round, from an earlier estimate if there is one.
-RoadEstimate begun(std::span<const DriveRecord> passages,
+RoadEstimate begun(std::span<const DriveRecord> drives,
                    const SmootherConfig& config,
                    const RoadEstimate* begin) {
     RoadEstimate estimate;
-    estimate.grid = grid_under(passages, config.cell_m);
-    estimate.felt = felt_by(passages);
+    estimate.grid = grid_under(drives, config.cell_m);
+    estimate.felt = felt_by(drives);
     if (begin != nullptr) {
         estimate.level = begin->level;
         estimate.which = begin->which;
         estimate.noise = begin->noise;
     } else {
         estimate.level = even_level(estimate.grid, estimate.felt, even_slope_m);
-        estimate.which.resize(passages.size());
-        estimate.noise.resize(passages.size());
+        estimate.which.resize(drives.size());
+        estimate.noise.resize(drives.size());
     }
     return estimate;
 }
 
 } // namespace
 
-RoadEstimate smooth_passages(std::vector<CarPassage> cars,
-                             const SmootherConfig& config,
-                             const RoadEstimate* begin) {
-    std::vector<DriveRecord> passages;
+RoadEstimate smooth_drives(std::vector<VehicleDrive> cars,
+                           const SmootherConfig& config,
+                           const RoadEstimate* begin) {
+    std::vector<DriveRecord> drives;
     std::vector<Variances> stated;
     for (auto& car : cars) {
-        stated.push_back(car.passage.variance);
-        passages.push_back(std::move(car.passage));
+        stated.push_back(car.drive.variance);
+        drives.push_back(std::move(car.drive));
     }
-    RoadEstimate estimate = begun(passages, config, begin);
+    RoadEstimate estimate = begun(drives, config, begin);
     SmootherMemory memory;
     for (int round = 0; round < config.rounds; ++round) {
-        for (std::size_t i = 0; i < passages.size(); ++i) {
-            passages[i].which = estimate.which[i];
-            passages[i].variance = times(stated[i], estimate.noise[i]);
+        for (std::size_t i = 0; i < drives.size(); ++i) {
+            drives[i].which = estimate.which[i];
+            drives[i].variance = times(stated[i], estimate.noise[i]);
         }
-        auto smoothed = smooth_road(passages,
+        auto smoothed = smooth_road(drives,
                                     estimate.grid,
                                     estimate.level.prior,
                                     config.seed + static_cast<std::uint64_t>(round),
@@ -170,11 +170,10 @@ RoadEstimate smooth_passages(std::vector<CarPassage> cars,
         for (std::size_t i = 0; i < cars.size(); ++i) {
             if (cars[i].friction_n > 0) {
                 estimate.which[i] = damping_with_friction(
-                    passages[i], cars[i].vehicle, estimate.grid, both, cars[i].friction_n);
+                    drives[i], cars[i].vehicle, estimate.grid, both, cars[i].friction_n);
             }
-            estimate.noise[i] = adapted(std::move(estimate.noise[i]),
-                                        smoothed.residual[i],
-                                        passages[i].cars.front().step_s);
+            estimate.noise[i] = adapted(
+                std::move(estimate.noise[i]), smoothed.residual[i], drives[i].cars.front().step_s);
         }
         estimate.level = adapted(std::move(estimate.level), smoothed, estimate.grid);
     }

@@ -13,14 +13,14 @@ struct SmootherConfig {
     std::uint64_t seed = 1;
 };
 
-/// Passage with its vehicle.
-struct CarPassage {
-    DriveRecord passage; ///< its `cars` by cars_with_friction, or one
+/// Drive with its vehicle.
+struct VehicleDrive {
+    DriveRecord drive; ///< its `cars` by cars_with_friction, or one
     Vehicle vehicle;
     double friction_n = 0; ///< of each suspension
 };
 
-/// Joint estimate of the road from all passages: the rectified stroke of the golden car over the
+/// Joint estimate of the road from all drives: the rectified stroke of the golden car over the
 /// sampled roads, mm/m, per cell of the grid. The IRI of any interval is the mean of its cells.
 struct RoadEstimate {
     RoadGrid grid;
@@ -33,18 +33,18 @@ struct RoadEstimate {
     std::vector<std::vector<float>> tracks_scatter, centre_scatter;
     RoadLevel level;
     std::vector<std::vector<std::uint8_t>> which; ///< car indices, after the last round
-    std::vector<NoiseFactors> noise;              ///< of the passages, after the last round
+    std::vector<NoiseFactors> noise;              ///< of the drives, after the last round
     double log_likelihood = 0;                    ///< of the last round
     std::vector<double> innovation, log_variance; ///< as in SmoothedRoad, of the last round
 };
 
-/// Smooths one passage, or several passages of different cars over the same stations: each observes
+/// Smooths one drive, or several drives of different cars over the same stations: each observes
 /// the wavelengths at which the other cars' wheelbases have nulls.
 ///
 /// \param begin  an earlier estimate of the same stretch, whose level, damping and noise are the
 ///               starting values
-RoadEstimate smooth_passages(std::vector<CarPassage> passages,
-                             const SmootherConfig& config,
-                             const RoadEstimate* begin = nullptr);
+RoadEstimate smooth_drives(std::vector<VehicleDrive> drives,
+                           const SmootherConfig& config,
+                           const RoadEstimate* begin = nullptr);
 
 } // namespace macadam

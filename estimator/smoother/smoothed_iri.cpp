@@ -25,13 +25,13 @@ constexpr double found_car_part = 0.04;
 constexpr double random_part = 0.07; // of 1 m, independent from metre to metre
 constexpr double indicative_common = 0.20;
 
-std::size_t sample_at(const DriveRecord& passage, double travel_m) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(passage.travel_m, travel_m) -
-                                    passage.travel_m.begin());
+std::size_t sample_at(const DriveRecord& drive, double travel_m) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(drive.travel_m, travel_m) -
+                                    drive.travel_m.begin());
 }
 
-bool is_felt(const DriveRecord& passage) {
-    return std::ranges::any_of(passage.felt, [](const auto& felt) { return !felt.empty(); });
+bool is_felt(const DriveRecord& drive) {
+    return std::ranges::any_of(drive.felt, [](const auto& felt) { return !felt.empty(); });
 }
 
 /// Appends the cells [from, to) of an estimate, counted on the grid.
@@ -131,11 +131,11 @@ double common_sd_of(const TunedCar& car, bool indicative) {
 }
 
 /// Returns the cells that both axles have passed, in whole metres.
-std::pair<std::ptrdiff_t, std::ptrdiff_t> cells_under(const DriveRecord& passage, double cell_m) {
-    const auto& car = passage.cars.front().car;
+std::pair<std::ptrdiff_t, std::ptrdiff_t> cells_under(const DriveRecord& drive, double cell_m) {
+    const auto& car = drive.cars.front().car;
     const auto cells_a_metre = static_cast<std::ptrdiff_t>(std::lround(1 / cell_m));
-    const double first_m = std::ceil(passage.travel_m.front() + car.front_m);
-    const double last_m = std::floor(passage.travel_m.back() + car.rear_m);
+    const double first_m = std::ceil(drive.travel_m.front() + car.front_m);
+    const double last_m = std::floor(drive.travel_m.back() + car.rear_m);
     return {static_cast<std::ptrdiff_t>(first_m) * cells_a_metre,
             static_cast<std::ptrdiff_t>(last_m) * cells_a_metre};
 }
@@ -146,24 +146,24 @@ struct Piece {
     std::size_t first, last;
 };
 
-Piece piece_at(const DriveRecord& passage,
+Piece piece_at(const DriveRecord& drive,
                std::ptrdiff_t from,
                std::ptrdiff_t end,
                double cell_m,
                const PieceConfig& config) {
-    const auto& travel_m = passage.travel_m;
+    const auto& travel_m = drive.travel_m;
     const auto cells_a_metre = static_cast<std::ptrdiff_t>(std::lround(1 / cell_m));
     const double from_m = static_cast<double>(from) * cell_m;
     const std::size_t furthest =
-        std::min(travel_m.size() - 1, sample_at(passage, from_m) + config.core_samples);
+        std::min(travel_m.size() - 1, sample_at(drive, from_m) + config.core_samples);
     const double until_m =
         std::min(from_m + config.core_m, std::max(from_m + 1, travel_m[furthest]));
     const std::size_t last =
-        std::min(travel_m.size(), sample_at(passage, until_m + config.margin_m) + 1);
+        std::min(travel_m.size(), sample_at(drive, until_m + config.margin_m) + 1);
     const auto whole = static_cast<std::ptrdiff_t>(std::floor(until_m)) * cells_a_metre;
     const auto to =
         last == travel_m.size() ? end : std::clamp(whole, std::min(end, from + cells_a_metre), end);
-    return {from, to, sample_at(passage, from_m - config.margin_m), last};
+    return {from, to, sample_at(drive, from_m - config.margin_m), last};
 }
 
 } // namespace
@@ -173,26 +173,26 @@ TunedCar car_in(const Stretch& stretch,
                 const EstimatorConfig& config,
                 const std::stop_token& stop,
                 const Resonance& mount) {
-    auto passage = passage_of(stretch, vehicle, config, mount);
+    auto drive = drive_of(stretch, vehicle, config, mount);
     if (!config.tracks && !config.sensors) { // roll then serves HRI/MRI only
         const auto roll = static_cast<std::size_t>(Channel::roll_rate);
-        passage.felt[roll].clear();
-        passage.variance[roll].clear();
+        drive.felt[roll].clear();
+        drive.variance[roll].clear();
     }
-    if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
+    if (drive.travel_m.size() < min_tuning_samples || !is_felt(drive)) {
         return {.vehicle = vehicle,
                 .friction_n =
                     vehicle.half_car.friction_n.value_or(usual_friction_n(vehicle.half_car).mean),
                 .iri_sd = untuned_sd,
                 .mount = mount};
     }
-    const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
-    const std::size_t from = (passage.travel_m.size() - count) / 2;
+    const std::size_t count = std::min(drive.travel_m.size(), tuning_samples);
+    const std::size_t from = (drive.travel_m.size() - count) / 2;
     Vehicle tunable = with_height(vehicle);
-    if (passage.felt[0].empty() || passage.felt[3].empty()) {
+    if (drive.felt[0].empty() || drive.felt[3].empty()) {
         tunable.uncertainty.clear();
     }
-    auto piece = piece_of(passage, from, from + count);
+    auto piece = piece_of(drive, from, from + count);
     piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
     auto tuned = tuned_car(piece, tunable, {}, stop);
     tuned.mount = mount;
@@ -209,24 +209,24 @@ IriRun smoothed_iri(const Stretch& stretch,
                     const PieceConfig& pieces,
                     const Progress& progress) {
     SmootherConfig smoother;
-    auto passage = passage_of(stretch, car.vehicle, config, car.mount);
+    auto drive = drive_of(stretch, car.vehicle, config, car.mount);
     IriRun run = empty_run(stretch, config, smoother.cell_m);
-    if (!is_felt(passage) || passage.travel_m.size() < 3) {
+    if (!is_felt(drive) || drive.travel_m.size() < 3) {
         return run;
     }
     const Vehicle vehicle = with_height(car.vehicle);
-    passage.cars = cars_with_friction(vehicle, stretch.step_s);
-    run.indicative = !felt_by({&passage, 1}).mean;
+    drive.cars = cars_with_friction(vehicle, stretch.step_s);
+    run.indicative = !felt_by({&drive, 1}).mean;
     run.common_sd = common_sd_of(car, run.indicative);
     run.random_sd = random_part;
 
-    const auto [begin, end] = cells_under(passage, smoother.cell_m);
+    const auto [begin, end] = cells_under(drive, smoother.cell_m);
     run.start_travel_m = static_cast<double>(begin) * smoother.cell_m;
     run.profile = {.start_travel_m = run.start_travel_m, .step_m = smoother.cell_m};
     for (auto cell = begin; cell < end && !progress.stop.stop_requested();) {
-        const auto piece = piece_at(passage, cell, end, smoother.cell_m, pieces);
-        const auto estimate = smooth_passages(
-            {{piece_of(passage, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
+        const auto piece = piece_at(drive, cell, end, smoother.cell_m, pieces);
+        const auto estimate = smooth_drives(
+            {{piece_of(drive, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
         append(estimate, piece.from, piece.to, config.tracks || config.sensors, run);
         if (!vehicle.axles) {
             run.scatter_mm_per_m.clear(); // it excludes what one axle misses
@@ -239,7 +239,7 @@ IriRun smoothed_iri(const Stretch& stretch,
     }
     for (std::size_t i = 0; i < run.centre_mm_per_m.size(); ++i) {
         const double at_m = run.start_travel_m + (static_cast<double>(i) + 0.5) * run.cell_m;
-        const std::size_t k = std::min(sample_at(passage, at_m), stretch.speed_mps.size() - 1);
+        const std::size_t k = std::min(sample_at(drive, at_m), stretch.speed_mps.size() - 1);
         run.speed_mps.push_back(stretch.speed_mps[k]);
     }
     return run;

@@ -68,15 +68,15 @@ std::vector<double> acceleration_mps2(const Stretch& stretch) {
 
 /// Adds the known inputs to the body: braking if pitch was sampled, cornering if any roll channel
 /// was.
-void add_pulls(DriveRecord& passage, const Stretch& stretch, bool yaw) {
-    if (!passage.felt[3].empty()) {
-        passage.pull[0] = acceleration_mps2(stretch);
-        std::ranges::for_each(passage.pull[0], [](double& a) { a = -a; });
+void add_pulls(DriveRecord& drive, const Stretch& stretch, bool yaw) {
+    if (!drive.felt[3].empty()) {
+        drive.pull[0] = acceleration_mps2(stretch);
+        std::ranges::for_each(drive.pull[0], [](double& a) { a = -a; });
     }
-    if (yaw && !(passage.felt[1].empty() && passage.felt[2].empty())) {
-        passage.pull[1].resize(stretch.yaw_radps.size());
+    if (yaw && !(drive.felt[1].empty() && drive.felt[2].empty())) {
+        drive.pull[1].resize(stretch.yaw_radps.size());
         std::ranges::transform(
-            stretch.yaw_radps, stretch.speed_mps, passage.pull[1].begin(), std::multiplies{});
+            stretch.yaw_radps, stretch.speed_mps, drive.pull[1].begin(), std::multiplies{});
     }
 }
 
@@ -135,37 +135,37 @@ std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
 
 /// Returns the variances of sensor noise and model error for every channel.
 std::array<std::vector<double>, channel_count>
-variances_of(const DriveRecord& passage, const Stretch& stretch, const ImuMount& imu, double gain) {
+variances_of(const DriveRecord& drive, const Stretch& stretch, const ImuMount& imu, double gain) {
     const double noise[] = {imu.noise_mps2 / gain,
                             imu.noise_mps2 / gain,
                             std::max(imu.noise_radps, stretch.roll_noise_radps),
                             std::max(imu.noise_radps, stretch.pitch_noise_radps)};
     std::array<std::vector<double>, channel_count> variance;
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
-        variance[channel] = variance_of(passage.felt[channel], noise[channel], stretch.step_s);
+        variance[channel] = variance_of(drive.felt[channel], noise[channel], stretch.step_s);
     }
     return variance;
 }
 
 } // namespace
 
-DriveRecord passage_of(const Stretch& stretch,
-                       const Vehicle& vehicle,
-                       const EstimatorConfig& config,
-                       const Resonance& mount) {
+DriveRecord drive_of(const Stretch& stretch,
+                     const Vehicle& vehicle,
+                     const EstimatorConfig& config,
+                     const Resonance& mount) {
     const SensorSet sensors = sensors_for(stretch, vehicle, config);
     const bool yaw = sensors.yaw && !stretch.yaw_radps.empty();
-    DriveRecord passage;
-    passage.first_sample = std::llround(stretch.start_s / stretch.step_s);
-    passage.travel_m = stretch.travel_m;
-    passage.drift = zero_drift;
-    auto& [vertical, lateral, roll, pitch] = passage.felt;
+    DriveRecord drive;
+    drive.first_sample = std::llround(stretch.start_s / stretch.step_s);
+    drive.travel_m = stretch.travel_m;
+    drive.drift = zero_drift;
+    auto& [vertical, lateral, roll, pitch] = drive.felt;
     if (sensors.vertical) {
         vertical = doubles(stretch.vertical_mps2, vehicle.gain);
     }
     if (sensors.lateral) {
         lateral = lateral_of(stretch, vehicle.gain, yaw);
-        passage.drift[1] = yaw ? zero_drift[1] : lateral_drift_without_yaw;
+        drive.drift[1] = yaw ? zero_drift[1] : lateral_drift_without_yaw;
     }
     if (sensors.roll) {
         roll = doubles(stretch.roll_radps, 1);
@@ -174,7 +174,7 @@ DriveRecord passage_of(const Stretch& stretch,
         pitch = doubles(stretch.pitch_radps, 1);
     }
     if (vehicle.imu.lowpass_hz > 0) {
-        for (auto& felt : passage.felt) {
+        for (auto& felt : drive.felt) {
             felt = inverse_lowpass(
                 felt, stretch.step_s, vehicle.imu.lowpass_hz, vehicle.imu.lowpass_order);
         }
@@ -183,15 +183,15 @@ DriveRecord passage_of(const Stretch& stretch,
         vertical = without_response(
             vertical, stretch.step_s, [&](double hz) { return response(mount, hz); });
     }
-    add_pulls(passage, stretch, yaw);
-    if (const auto turn_m = wheel_circumference_m(passage)) {
-        passage = without_wheel_order(std::move(passage), *turn_m);
+    add_pulls(drive, stretch, yaw);
+    if (const auto turn_m = wheel_circumference_m(drive)) {
+        drive = without_wheel_order(std::move(drive), *turn_m);
     }
-    passage.variance = variances_of(passage, stretch, vehicle.imu, vehicle.gain);
-    if (!passage.felt[1].empty() && yaw) {
-        add_bends(passage.variance[1], stretch);
+    drive.variance = variances_of(drive, stretch, vehicle.imu, vehicle.gain);
+    if (!drive.felt[1].empty() && yaw) {
+        add_bends(drive.variance[1], stretch);
     }
-    return passage;
+    return drive;
 }
 
 DriveRecord piece_of(const DriveRecord& whole, std::size_t from, std::size_t to) {

@@ -21,26 +21,26 @@ constexpr double memory_m = 60;        // of the line's amplitude and phase, to 
 constexpr int neighbours = 12;         // on each side, as a reference for the road's spectrum
 
 /// Returns the Fourier component of a channel at a frequency in distance, between two samples.
-Complex line_at(const DriveRecord& passage,
+Complex line_at(const DriveRecord& drive,
                 const std::vector<double>& felt,
                 std::size_t from,
                 std::size_t to,
                 double turns_per_m) {
     Complex sum = 0;
     for (std::size_t k = from + 1; k < to; ++k) {
-        const double run_m = passage.travel_m[k] - passage.travel_m[k - 1];
+        const double run_m = drive.travel_m[k] - drive.travel_m[k - 1];
         sum += felt[k] * run_m *
-               std::polar(1.0, -2 * std::numbers::pi * turns_per_m * passage.travel_m[k]);
+               std::polar(1.0, -2 * std::numbers::pi * turns_per_m * drive.travel_m[k]);
     }
     return sum;
 }
 
 /// Returns the samples at which pieces of piece_m begin and end.
-std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const DriveRecord& passage) {
+std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const DriveRecord& drive) {
     std::vector<std::pair<std::size_t, std::size_t>> pieces;
     std::size_t from = 0;
-    for (std::size_t k = 1; k < passage.travel_m.size(); ++k) {
-        if (passage.travel_m[k] - passage.travel_m[from] >= piece_m) {
+    for (std::size_t k = 1; k < drive.travel_m.size(); ++k) {
+        if (drive.travel_m[k] - drive.travel_m[from] >= piece_m) {
             pieces.emplace_back(from, k);
             from = k;
         }
@@ -57,13 +57,13 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const DriveRecord& pa
 
 /// Returns the power of all channels at `count` frequencies from lowest * step, relative to the
 /// usual. All pieces have equal weight, however rough.
-std::vector<double> power_at(const DriveRecord& passage,
+std::vector<double> power_at(const DriveRecord& drive,
                              const std::vector<std::pair<std::size_t, std::size_t>>& pieces,
                              std::size_t lowest,
                              std::size_t count,
                              double step) {
     std::vector<double> power(count);
-    for (const auto& felt : passage.felt) {
+    for (const auto& felt : drive.felt) {
         if (felt.empty()) {
             continue;
         }
@@ -71,7 +71,7 @@ std::vector<double> power_at(const DriveRecord& passage,
             std::vector<double> own(count);
             for (std::size_t i = 0; i < count; ++i) {
                 own[i] = std::norm(
-                    line_at(passage, felt, from, to, static_cast<double>(lowest + i) * step));
+                    line_at(drive, felt, from, to, static_cast<double>(lowest + i) * step));
             }
             const double usual = median(own);
             for (std::size_t i = 0; i < count; ++i) {
@@ -85,13 +85,13 @@ std::vector<double> power_at(const DriveRecord& passage,
 /// Extracts the slowly changing part of `felt` at the frequency: amplitude and phase over memory_m
 /// to either side.
 std::vector<double>
-line_of(const DriveRecord& passage, const std::vector<double>& felt, double turns_per_m) {
+line_of(const DriveRecord& drive, const std::vector<double>& felt, double turns_per_m) {
     const std::size_t n = felt.size();
     std::vector<Complex> turned(n);
     std::vector<double> run_m(n);
     for (std::size_t k = 0; k < n; ++k) {
-        run_m[k] = k == 0 ? 0 : passage.travel_m[k] - passage.travel_m[k - 1];
-        turned[k] = std::polar(1.0, -2 * std::numbers::pi * turns_per_m * passage.travel_m[k]);
+        run_m[k] = k == 0 ? 0 : drive.travel_m[k] - drive.travel_m[k - 1];
+        turned[k] = std::polar(1.0, -2 * std::numbers::pi * turns_per_m * drive.travel_m[k]);
     }
     std::vector<Complex> sum(n);
     std::vector<double> weight(n);
@@ -131,8 +131,8 @@ double surely_a_line(double looks) {
 
 } // namespace
 
-std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
-    const auto pieces = pieces_of(passage);
+std::optional<double> wheel_circumference_m(const DriveRecord& drive) {
+    const auto pieces = pieces_of(drive);
     if (pieces.size() < min_pieces) {
         return std::nullopt;
     }
@@ -140,7 +140,7 @@ std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
     const auto first = static_cast<std::size_t>(1 / max_turn_m / step);
     const auto last = static_cast<std::size_t>(1 / min_turn_m / step);
     const std::size_t lowest = first - neighbours;
-    const auto power = power_at(passage, pieces, lowest, last + neighbours + 1 - lowest, step);
+    const auto power = power_at(drive, pieces, lowest, last + neighbours + 1 - lowest, step);
     double best = 0;
     std::size_t at = 0;
     for (std::size_t i = neighbours; i + neighbours < power.size(); ++i) {
@@ -156,7 +156,7 @@ std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
         }
     }
     // Channels that observe the same side of the road are correlated.
-    const auto [mean, half] = felt_by({&passage, 1});
+    const auto [mean, half] = felt_by({&drive, 1});
     const double sides = (mean ? 1 : 0) + (half ? 1 : 0);
     if (!(best > surely_a_line(static_cast<double>(pieces.size()) * sides))) {
         return std::nullopt;
@@ -164,16 +164,16 @@ std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
     return 1 / (static_cast<double>(lowest + at) * step);
 }
 
-DriveRecord without_wheel_order(DriveRecord passage, double turn_m) {
-    for (auto& felt : passage.felt) {
+DriveRecord without_wheel_order(DriveRecord drive, double turn_m) {
+    for (auto& felt : drive.felt) {
         for (int harmonic = 1; harmonic <= 2 && !felt.empty(); ++harmonic) {
-            const auto line = line_of(passage, felt, harmonic / turn_m);
+            const auto line = line_of(drive, felt, harmonic / turn_m);
             for (std::size_t k = 0; k < felt.size(); ++k) {
                 felt[k] -= line[k];
             }
         }
     }
-    return passage;
+    return drive;
 }
 
 } // namespace macadam

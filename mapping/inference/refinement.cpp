@@ -61,12 +61,12 @@ Projection projected(const std::vector<PointEn>& way, std::size_t near, const Po
 }
 
 /// Adds the offsets of one run along a way to the vertices passed.
-void add_passage(std::vector<std::vector<Offset>>& offsets,
-                 const std::vector<Projection>& passage,
-                 double weight) {
-    for (std::size_t k = 1; k < passage.size(); ++k) {
-        const auto& a = passage[k - 1];
-        const auto& b = passage[k];
+void add_drive(std::vector<std::vector<Offset>>& offsets,
+               const std::vector<Projection>& drive,
+               double weight) {
+    for (std::size_t k = 1; k < drive.size(); ++k) {
+        const auto& a = drive[k - 1];
+        const auto& b = drive[k];
         const double first = std::max(0.0, std::ceil(a.station));
         for (double v = first; v < b.station && v < static_cast<double>(offsets.size()); ++v) {
             const double share = (v - a.station) / (b.station - a.station);
@@ -81,13 +81,13 @@ void add_line(Offsets& offsets,
               const TraceLine& line,
               const TraceJoins& joins) {
     const double weight = 1 / (line.sd_m * line.sd_m);
-    std::vector<Projection> passage;
+    std::vector<Projection> drive;
     std::optional<TraceVertex> last;
     const auto flush = [&] {
-        if (last && passage.size() > 1) {
-            add_passage(offsets[last->way], passage, weight);
+        if (last && drive.size() > 1) {
+            add_drive(offsets[last->way], drive, weight);
         }
-        passage.clear();
+        drive.clear();
     };
     for (std::size_t i = 0; i < joins.size(); ++i) {
         const bool goes_on = joins[i] && last && last->way == joins[i]->at.way &&
@@ -98,8 +98,8 @@ void add_line(Offsets& offsets,
         last = joins[i] ? std::optional{joins[i]->at} : std::nullopt;
         if (last) {
             const auto here = projected(ways[last->way], last->point, line.points[i]);
-            if (passage.empty() || here.station > passage.back().station) {
-                passage.push_back(here);
+            if (drive.empty() || here.station > drive.back().station) {
+                drive.push_back(here);
             }
         }
     }

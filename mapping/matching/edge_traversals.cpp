@@ -22,14 +22,14 @@ bool goes_on(const MatchedInterval& before, const MatchedInterval& piece) {
     return before.edge == piece.edge && std::abs(piece.from_offset_m - before.to_offset_m) < meet_m;
 }
 
-void append(MatchedInterval& passage, const MatchedInterval& piece) {
-    const double whole_m = long_m(passage) + long_m(piece);
+void append(MatchedInterval& traversal, const MatchedInterval& piece) {
+    const double whole_m = long_m(traversal) + long_m(piece);
     const double share = whole_m > 0 ? long_m(piece) / whole_m : 0;
-    passage.confidence = std::lerp(passage.confidence, piece.confidence, share);
-    passage.to_travel_m = piece.to_travel_m;
-    passage.to_offset_m = std::max(passage.to_offset_m, piece.to_offset_m);
-    passage.t_leave_s = piece.t_leave_s;
-    passage.offset_sd_m = std::max(passage.offset_sd_m, piece.offset_sd_m);
+    traversal.confidence = std::lerp(traversal.confidence, piece.confidence, share);
+    traversal.to_travel_m = piece.to_travel_m;
+    traversal.to_offset_m = std::max(traversal.to_offset_m, piece.to_offset_m);
+    traversal.t_leave_s = piece.t_leave_s;
+    traversal.offset_sd_m = std::max(traversal.offset_sd_m, piece.offset_sd_m);
 }
 
 } // namespace
@@ -43,24 +43,24 @@ MatchedTrace edge_traversals(const MatchedTrace& trace, double min_m) {
             joined.push_back(piece);
         }
     }
-    MatchedTrace passages;
+    MatchedTrace traversals;
     for (auto& piece : joined) {
         const double gone_m = piece.kind == IntervalKind::road
                                   ? long_m(piece)
                                   : piece.to_travel_m - piece.from_travel_m;
         const bool is_speck = gone_m < min_m;
-        if (is_speck && !passages.empty()) {
-            passages.back().to_travel_m = piece.to_travel_m;
-            passages.back().t_leave_s = piece.t_leave_s;
+        if (is_speck && !traversals.empty()) {
+            traversals.back().to_travel_m = piece.to_travel_m;
+            traversals.back().t_leave_s = piece.t_leave_s;
         } else if (!is_speck) {
-            if (passages.empty()) { // tiny intervals before the first traversal
+            if (traversals.empty()) { // tiny intervals before the first traversal
                 piece.from_travel_m = joined.front().from_travel_m;
                 piece.t_enter_s = joined.front().t_enter_s;
             }
-            passages.push_back(std::move(piece));
+            traversals.push_back(std::move(piece));
         }
     }
-    return passages;
+    return traversals;
 }
 
 } // namespace macadam

@@ -31,7 +31,7 @@ struct Unpacked {
 };
 
 /// Positions and lengths, unpacked on access: ranges with [], size, front, back.
-using PlaceRange = std::ranges::transform_view<std::span<const PackedPoint>, Unpacked>;
+using PointRange = std::ranges::transform_view<std::span<const PackedPoint>, Unpacked>;
 using LengthRange = std::ranges::transform_view<std::span<const std::uint32_t>, Unpacked>;
 
 /// First point, link and turn rule of a way; each range ends where the next way's begins.

@@ -43,7 +43,7 @@ WayView way_at(const RoadNetwork& roads, std::uint32_t way) {
             .oneway = static_cast<Oneway>(found.oneway),
             .speed_limit_cmps = found.speed_limit_cmps,
             .node_ids = roads.node_ids.subspan(found.first_point, points),
-            .line = PlaceRange{roads.points.subspan(found.first_point, points), {}},
+            .line = PointRange{roads.points.subspan(found.first_point, points), {}},
             .along_m = LengthRange{roads.along_mm.subspan(found.first_point, points), {}},
             .turns = roads.turns.subspan(found.first_turn, next.first_turn - found.first_turn),
             .first_link = found.first_link,

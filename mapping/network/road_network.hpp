@@ -76,7 +76,7 @@ struct WayView {
     Oneway oneway = Oneway::no;
     std::uint16_t speed_limit_cmps = 0;
     std::span<const std::int64_t> node_ids;
-    PlaceRange line;     ///< as many as node_ids
+    PointRange line;     ///< as many as node_ids
     LengthRange along_m; ///< distance of each point from the first
     std::span<const TurnRule> turns;
     std::uint32_t first_link = 0; ///< its links are numbered consecutively

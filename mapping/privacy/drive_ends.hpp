@@ -7,7 +7,7 @@
 namespace macadam {
 
 /// Time of a pass over a segment, and the network block of the segment.
-struct BlockPassage {
+struct BlockVisit {
     std::int64_t t_ms;
     std::uint64_t block;
 };
@@ -16,7 +16,7 @@ struct BlockPassage {
 /// minutes ends a drive. Publication omits them, so that published drives end at block boundaries,
 /// which depend on the map alone, and never at the ends of a trip.
 ///
-/// \param passages  of one trip, in driving order.
-std::vector<bool> in_end_blocks(std::span<const BlockPassage> passages);
+/// \param visits  of one trip, in driving order.
+std::vector<bool> in_end_blocks(std::span<const BlockVisit> visits);
 
 } // namespace macadam

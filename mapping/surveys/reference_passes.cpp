@@ -30,30 +30,30 @@ bool overlaps(const ReferencePart& a, const ReferencePart& b) {
 /// Disjoint parts of one pass over a segment.
 using CoveringParts = std::vector<Part>;
 
-void add_to_first_free(std::vector<CoveringParts>& passages, const Part& part) {
-    for (auto& passage : passages) {
+void add_to_first_free(std::vector<CoveringParts>& coverings, const Part& part) {
+    for (auto& covering : coverings) {
         if (std::ranges::none_of(
-                passage, [&](const Part& other) { return overlaps(*other.part, *part.part); })) {
-            passage.push_back(part);
+                covering, [&](const Part& other) { return overlaps(*other.part, *part.part); })) {
+            covering.push_back(part);
             return;
         }
     }
-    passages.push_back({part});
+    coverings.push_back({part});
 }
 
-double covered_m(const CoveringParts& passage) {
+double covered_m(const CoveringParts& covering) {
     double sum_m = 0;
-    for (const auto& part : passage) {
+    for (const auto& part : covering) {
         sum_m += length_m(*part.part);
     }
-    return std::min(sum_m, passage.front().part->segment_m);
+    return std::min(sum_m, covering.front().part->segment_m);
 }
 
 /// Computes the length-weighted mean of the parts' rows; `std::nullopt` if a row lacks the value.
 template <typename Value>
-std::optional<double> mean_of(const CoveringParts& passage, const Value& value) {
+std::optional<double> mean_of(const CoveringParts& covering, const Value& value) {
     double sum = 0, whole_m = 0;
-    for (const auto& part : passage) {
+    for (const auto& part : covering) {
         const std::optional<double> one = value(part);
         if (!one) {
             return std::nullopt;
@@ -65,10 +65,10 @@ std::optional<double> mean_of(const CoveringParts& passage, const Value& value) 
 }
 
 /// Returns the share of the road's scatter within rows that remains in the mean of these parts.
-double scatter_share(const CoveringParts& passage) {
-    const double whole_m = covered_m(passage);
-    double share = 1 - whole_m / passage.front().part->segment_m;
-    for (const auto& part : passage) {
+double scatter_share(const CoveringParts& covering) {
+    const double whole_m = covered_m(covering);
+    double share = 1 - whole_m / covering.front().part->segment_m;
+    for (const auto& part : covering) {
         const double part_m = length_m(*part.part);
         const double row_m = std::max(part.part->row_m, part_m);
         share += std::pow(part_m / whole_m, 2) * (1 - part_m / row_m);
@@ -76,11 +76,11 @@ double scatter_share(const CoveringParts& passage) {
     return share;
 }
 
-double relative_sd(const CoveringParts& passage, const ReferenceConfig& config) {
+double relative_sd(const CoveringParts& covering, const ReferenceConfig& config) {
     const bool from_hri =
-        std::ranges::any_of(passage, [](const Part& part) { return part.iri.from_hri; });
+        std::ranges::any_of(covering, [](const Part& part) { return part.iri.from_hri; });
     return std::hypot(config.relative_sd,
-                      config.within_row_relative_sd * std::sqrt(scatter_share(passage)),
+                      config.within_row_relative_sd * std::sqrt(scatter_share(covering)),
                       from_hri ? sd_hri_over_mri / hri_over_mri : 0);
 }
 
@@ -92,27 +92,27 @@ std::optional<IriUm> known_um(const std::optional<double>& mm_per_m) {
     return mm_per_m ? std::optional{whole_um(*mm_per_m)} : std::nullopt;
 }
 
-Pass pass_of(const CoveringParts& passage,
+Pass pass_of(const CoveringParts& covering,
              std::uint32_t occurrence,
              const ReferenceConfig& config) {
     const auto side = [&](std::optional<double> SurveyRow::*iri) {
-        return known_um(mean_of(passage, [&](const Part& part) { return part.row->*iri; }));
+        return known_um(mean_of(covering, [&](const Part& part) { return part.row->*iri; }));
     };
     const double iri =
-        *mean_of(passage, [](const Part& part) { return std::optional{part.iri.mm_per_m}; });
+        *mean_of(covering, [](const Part& part) { return std::optional{part.iri.mm_per_m}; });
     const double confidence =
-        *mean_of(passage, [](const Part& part) { return std::optional{part.part->confidence}; });
+        *mean_of(covering, [](const Part& part) { return std::optional{part.part->confidence}; });
     Pass pass{};
-    pass.segment = passage.front().part->segment;
+    pass.segment = covering.front().part->segment;
     pass.occurrence = occurrence;
     pass.iri_left_um = side(&SurveyRow::left_mm_per_m);
     pass.iri_right_um = side(&SurveyRow::right_mm_per_m);
     pass.iri_centre_um = side(&SurveyRow::hri_mm_per_m);
     pass.iri_um = whole_um(iri);
-    pass.sd_um = std::max(1, whole_um(iri * relative_sd(passage, config)));
+    pass.sd_um = std::max(1, whole_um(iri * relative_sd(covering, config)));
     pass.centre_only =
-        std::ranges::any_of(passage, [](const Part& part) { return part.iri.from_hri; });
-    pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m(passage) * 1000));
+        std::ranges::any_of(covering, [](const Part& part) { return part.iri.from_hri; });
+    pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m(covering) * 1000));
     pass.confidence_ppm = static_cast<std::int32_t>(std::lround(confidence * 1e6));
     return pass;
 }
@@ -146,14 +146,14 @@ ReferencePasses reference_passes(const ReferenceSurvey& survey,
         }
     }
     std::vector<bool> used(survey.rows.size(), false);
-    for (const auto& [segment, passages] : segments) {
+    for (const auto& [segment, coverings] : segments) {
         std::uint32_t occurrence = 0;
-        for (const auto& passage : passages) {
-            if (covered_m(passage) < config.min_cover * passage.front().part->segment_m) {
+        for (const auto& covering : coverings) {
+            if (covered_m(covering) < config.min_cover * covering.front().part->segment_m) {
                 continue;
             }
-            all.passes.push_back(pass_of(passage, occurrence++, config));
-            for (const auto& part : passage) {
+            all.passes.push_back(pass_of(covering, occurrence++, config));
+            for (const auto& part : covering) {
                 used[part.part->row] = true;
             }
         }

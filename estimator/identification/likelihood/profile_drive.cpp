@@ -248,7 +248,7 @@ std::optional<ProfileDrive> drive_on_profile(const Stretch& stretch,
     }
     EstimatorConfig config;
     config.sensors = channels_for(stretch, profile, vehicle);
-    auto record = piece_of(passage_of(stretch, vehicle, config),
+    auto record = piece_of(drive_of(stretch, vehicle, config),
                            static_cast<std::size_t>(from - stretch.travel_m.begin()),
                            static_cast<std::size_t>(to - stretch.travel_m.begin()));
     ProfileDrive drive{.step_s = stretch.step_s,

@@ -109,10 +109,10 @@ level_after(const Increment& old, const Moments& m, std::size_t i, ObservedModes
 
 } // namespace
 
-ObservedModes felt_by(std::span<const DriveRecord> passages) {
+ObservedModes felt_by(std::span<const DriveRecord> drives) {
     const auto is_felt = [&](Channel channel) {
-        return std::ranges::any_of(passages, [=](const DriveRecord& passage) {
-            return !passage.felt[static_cast<std::size_t>(channel)].empty();
+        return std::ranges::any_of(drives, [=](const DriveRecord& drive) {
+            return !drive.felt[static_cast<std::size_t>(channel)].empty();
         });
     };
     return {is_felt(Channel::vertical) || is_felt(Channel::pitch_rate),

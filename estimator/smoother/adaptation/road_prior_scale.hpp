@@ -11,7 +11,7 @@ struct ObservedModes {
     bool mean; ///< vertical acceleration or pitch rate
     bool half; ///< lateral acceleration or roll rate
 };
-ObservedModes felt_by(std::span<const DriveRecord> passages);
+ObservedModes felt_by(std::span<const DriveRecord> drives);
 
 /// Roughness along the road: a level over tens of metres for mean and half difference, and a factor
 /// at each station, which joints, potholes and edges of patches raise.

@@ -26,7 +26,7 @@ struct DriveRecord {
 };
 
 /// Returns the car that applies up to a sample.
-const CarSteps& car_at(const DriveRecord& passage, std::size_t sample);
+const CarSteps& car_at(const DriveRecord& drive, std::size_t sample);
 
 /// Grid of stations i * cell_m, i >= first_cell; the road is linear between two stations.
 struct RoadGrid {
@@ -35,8 +35,8 @@ struct RoadGrid {
     std::size_t cells = 0;
 };
 
-/// Returns the stations that the wheels of the passages cross, starting at a whole metre.
-RoadGrid grid_under(std::span<const DriveRecord> passages, double cell_m);
+/// Returns the stations that the wheels of the drives cross, starting at a whole metre.
+RoadGrid grid_under(std::span<const DriveRecord> drives, double cell_m);
 
 /// Values for the mean of the tracks and for half the difference, left minus right.
 struct Pair {
@@ -46,9 +46,9 @@ struct Pair {
 
 using CarState = Eigen::Matrix<double, LinearCar::states, 1>;
 
-/// Simulates the passage's car over a road on the grid and returns its state at every sample. It
+/// Simulates the drive's car over a road on the grid and returns its state at every sample. It
 /// starts at rest and without pulls.
 std::vector<CarState>
-simulate_response(const DriveRecord& passage, const RoadGrid& grid, std::span<const Pair> road_m);
+simulate_response(const DriveRecord& drive, const RoadGrid& grid, std::span<const Pair> road_m);
 
 } // namespace macadam

@@ -12,20 +12,19 @@ constexpr auto heaves = static_cast<std::size_t>(LinearCar::heave_states);
 /// Backward recursion of de Jong's r, for the estimate and for the drawn error.
 class Smoother {
 public:
-    Smoother(std::span<const DriveRecord> passages,
+    Smoother(std::span<const DriveRecord> drives,
              const RoadGrid& grid,
              const RoadPrior& prior,
              const FilterResult& forward)
-        : passages_{passages}, grid_{grid}, prior_{prior}, forward_{forward},
-          layout_{forward.layout}, next_{forward.memory.updates.size()}, r_{Vector(layout_.size),
-                                                                            Vector(layout_.size)} {
+        : drives_{drives}, grid_{grid}, prior_{prior}, forward_{forward}, layout_{forward.layout},
+          next_{forward.memory.updates.size()}, r_{Vector(layout_.size), Vector(layout_.size)} {
         road_.increment_m.resize(grid.cells);
         road_.perturbed_m.resize(grid.cells);
-        for (const auto& passage : passages) {
+        for (const auto& drive : drives) {
             auto& residual = road_.residual.emplace_back();
             for (std::size_t channel = 0; channel < channel_count; ++channel) {
-                residual[channel].seen.resize(passage.felt[channel].size());
-                residual[channel].open.resize(passage.felt[channel].size());
+                residual[channel].seen.resize(drive.felt[channel].size());
+                residual[channel].open.resize(drive.felt[channel].size());
             }
         }
     }
@@ -38,7 +37,7 @@ private:
     void leave(std::ptrdiff_t cell);
     Pair disturbance(std::ptrdiff_t cell, const Increment& q, Vector& r) const;
 
-    std::span<const DriveRecord> passages_;
+    std::span<const DriveRecord> drives_;
     const RoadGrid& grid_;
     const RoadPrior& prior_;
     const FilterResult& forward_;
@@ -49,16 +48,16 @@ private:
 };
 
 void Smoother::over_update(const SampleOrder& event) {
-    const DriveRecord& passage = passages_[event.car];
+    const DriveRecord& drive = drives_[event.car];
     const auto& places = layout_.cars[event.car];
     for (std::size_t channel = channel_count; channel-- > 0;) {
-        if (passage.felt[channel].empty()) {
+        if (drive.felt[channel].empty()) {
             continue;
         }
-        const auto& felt = car_at(passage, event.sample).car.felt[channel];
+        const auto& felt = car_at(drive, event.sample).car.felt[channel];
         const Update& update = forward_.memory.updates[--next_];
         const double* gain = &forward_.memory.gains[next_ * layout_.size];
-        const double variance = passage.variance[channel][event.sample];
+        const double variance = drive.variance[channel][event.sample];
         double noise[2]; // smoothed
         for (std::size_t column = 0; column < 2; ++column) {
             Vector& r = r_[column];
@@ -81,7 +80,7 @@ void Smoother::over_update(const SampleOrder& event) {
 }
 
 void Smoother::over_step(const SampleOrder& event, const RoadPush& push, Vector& r) const {
-    const CarSteps& steps = car_at(passages_[event.car], event.sample);
+    const CarSteps& steps = car_at(drives_[event.car], event.sample);
     const auto& places = layout_.cars[event.car];
     const std::size_t n = places.states.size();
     std::array<double, LinearCar::states> after;
@@ -119,7 +118,7 @@ void Smoother::over_step(const SampleOrder& event, const RoadPush& push, Vector&
                 onto += steps.lean(static_cast<int>(places.states[i]), static_cast<int>(pull)) *
                         after[i];
             }
-            r[places.arm[pull]] += onto * passages_[event.car].pull[pull][event.sample];
+            r[places.arm[pull]] += onto * drives_[event.car].pull[pull][event.sample];
         }
     }
 }
@@ -158,7 +157,7 @@ SmoothedRoad Smoother::run() {
         const SampleOrder& event = forward_.events[e];
         over_update(event);
         if (event.sample > 0) {
-            const auto push = push_of(passages_, grid_, event);
+            const auto push = push_of(drives_, grid_, event);
             over_step(event, push, r_[0]);
             over_step(event, push, r_[1]);
         }
@@ -172,11 +171,11 @@ SmoothedRoad Smoother::run() {
 
 } // namespace
 
-SmoothedRoad disturbance_smoother(std::span<const DriveRecord> passages,
+SmoothedRoad disturbance_smoother(std::span<const DriveRecord> drives,
                                   const RoadGrid& grid,
                                   const RoadPrior& prior,
                                   const FilterResult& forward) {
-    return Smoother{passages, grid, prior, forward}.run();
+    return Smoother{drives, grid, prior, forward}.run();
 }
 
 } // namespace macadam

@@ -19,14 +19,14 @@ struct FilterResult {
     std::vector<double> innovation{}, log_variance{}; ///< as in SmoothedRoad
 };
 
-FilterResult kalman_filter(std::span<const DriveRecord> passages,
+FilterResult kalman_filter(std::span<const DriveRecord> drives,
                            const RoadGrid& grid,
                            const RoadPrior& prior,
                            std::uint64_t seed,
                            SmootherMemory memory);
 
 /// Runs the disturbance smoother and returns increments and residuals.
-SmoothedRoad disturbance_smoother(std::span<const DriveRecord> passages,
+SmoothedRoad disturbance_smoother(std::span<const DriveRecord> drives,
                                   const RoadGrid& grid,
                                   const RoadPrior& prior,
                                   const FilterResult& forward);

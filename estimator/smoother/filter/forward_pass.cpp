@@ -42,10 +42,10 @@ double start_sd(std::size_t state) {
     return state % 2 == 0 ? (angle ? start_rad : start_m) : (angle ? start_radps : start_mps);
 }
 
-std::size_t readings_of(std::span<const DriveRecord> passages) {
+std::size_t readings_of(std::span<const DriveRecord> drives) {
     std::size_t count = 0;
-    for (const auto& passage : passages) {
-        for (const auto& felt : passage.felt) {
+    for (const auto& drive : drives) {
+        for (const auto& felt : drive.felt) {
             count += felt.size();
         }
     }
@@ -55,22 +55,22 @@ std::size_t readings_of(std::span<const DriveRecord> passages) {
 /// Kalman filter: the estimate, its covariance, and the error of a drawn road with drawn readings.
 class Filter {
 public:
-    Filter(std::span<const DriveRecord> passages,
+    Filter(std::span<const DriveRecord> drives,
            const RoadGrid& grid,
            const RoadPrior& prior,
            std::uint64_t seed,
            SmootherMemory memory)
-        : passages_{passages}, grid_{grid}, prior_{prior}, seed_{seed},
-          pass_{.layout = layout_of(passages, grid),
+        : drives_{drives}, grid_{grid}, prior_{prior}, seed_{seed},
+          pass_{.layout = layout_of(drives, grid),
                 .processes = road_processes(prior, grid.cell_m),
-                .events = events_of(passages, grid.cell_m)},
+                .events = events_of(drives, grid.cell_m)},
           size_{pass_.layout.size}, p_(size_ * size_), moved_(states * size_), gain_(size_),
           estimate_(size_), error_(size_) {
         pass_.drawn.resize(grid.cells);
         pass_.memory = std::move(memory);
         pass_.memory.updates.clear();
         pass_.memory.gains.clear();
-        pass_.memory.gains.reserve(readings_of(passages) * size_);
+        pass_.memory.gains.reserve(readings_of(drives) * size_);
     }
 
     FilterResult run();
@@ -86,7 +86,7 @@ private:
     double draw(std::uint64_t what, const SampleOrder& event, std::size_t which) const {
         return counter_normal(seed_,
                               of_car(what, event.car),
-                              static_cast<std::uint64_t>(passages_[event.car].first_sample) +
+                              static_cast<std::uint64_t>(drives_[event.car].first_sample) +
                                   event.sample,
                               which);
     }
@@ -106,7 +106,7 @@ private:
     void update(const SampleOrder& event);
     void take_in(const SampleOrder& event, std::size_t channel);
 
-    std::span<const DriveRecord> passages_;
+    std::span<const DriveRecord> drives_;
     const RoadGrid& grid_;
     const RoadPrior& prior_;
     std::uint64_t seed_;
@@ -124,7 +124,7 @@ void Filter::know(std::size_t place, double sd, std::size_t car, std::size_t num
 }
 
 void Filter::start() {
-    for (std::size_t car = 0; car < passages_.size(); ++car) {
+    for (std::size_t car = 0; car < drives_.size(); ++car) {
         const auto& places = pass_.layout.cars[car];
         for (std::size_t i = 0; i < places.states.size(); ++i) {
             know(places.first + i, start_sd(places.states[i]), car, places.states[i]);
@@ -289,19 +289,19 @@ void Filter::put_moved(const StateLayout::Car& places, const Among& among) {
 
 void Filter::predict(const SampleOrder& event, const RoadPush& push) {
     const auto& places = pass_.layout.cars[event.car];
-    const DriveRecord& passage = passages_[event.car];
-    const std::array sides{step_sums(0, passage, event, pass_.layout, push),
-                           step_sums(1, passage, event, pass_.layout, push)};
+    const DriveRecord& drive = drives_[event.car];
+    const std::array sides{step_sums(0, drive, event, pass_.layout, push),
+                           step_sums(1, drive, event, pass_.layout, push)};
     for (std::size_t side = 0; side < 2; ++side) {
         const auto [from, to] = places.of_side(side);
         move_side(sides[side], from, to, places.first);
     }
     put_moved(places, among_moved(places, sides));
-    const double step_s = passage.cars.front().step_s;
+    const double step_s = drive.cars.front().step_s;
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         if (places.zero[channel] != StateLayout::nowhere) {
             wander(places.zero[channel],
-                   passage.drift[channel] * step_s,
+                   drive.drift[channel] * step_s,
                    draw(for_zero, event, channel));
         }
     }
@@ -314,11 +314,11 @@ void Filter::predict(const SampleOrder& event, const RoadPush& push) {
 
 /// Updates the state with one channel's reading.
 void Filter::take_in(const SampleOrder& event, std::size_t channel) {
-    const DriveRecord& passage = passages_[event.car];
-    const auto& felt = car_at(passage, event.sample).car.felt[channel];
+    const DriveRecord& drive = drives_[event.car];
+    const auto& felt = car_at(drive, event.sample).car.felt[channel];
     const auto& places = pass_.layout.cars[event.car];
     const std::size_t zero = places.zero[channel];
-    const double r = passage.variance[channel][event.sample];
+    const double r = drive.variance[channel][event.sample];
     std::copy_n(row(zero), size_, gain_.data());
     double seen[] = {estimate_[zero], error_[zero]};
     for (std::size_t i = 0; i < places.states.size(); ++i) {
@@ -335,7 +335,7 @@ void Filter::take_in(const SampleOrder& event, std::size_t channel) {
         s += felt[static_cast<int>(places.states[i])] * gain_[places.first + i];
     }
     const double share = 1 / s;
-    const double off = passage.felt[channel][event.sample] - seen[0];
+    const double off = drive.felt[channel][event.sample] - seen[0];
     const double noise = std::sqrt(r) * draw(for_noise, event, channel);
     const Update update{off * share, (seen[1] + noise) * share, noise};
     pass_.memory.updates.push_back(update);
@@ -355,7 +355,7 @@ void Filter::take_in(const SampleOrder& event, std::size_t channel) {
 
 void Filter::update(const SampleOrder& event) {
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
-        if (!passages_[event.car].felt[channel].empty()) {
+        if (!drives_[event.car].felt[channel].empty()) {
             take_in(event, channel);
         }
     }
@@ -372,7 +372,7 @@ FilterResult Filter::run() {
             append(++pass_.last_cell);
         }
         if (event.sample > 0) {
-            predict(event, push_of(passages_, grid_, event));
+            predict(event, push_of(drives_, grid_, event));
         }
         update(event);
     }
@@ -381,12 +381,12 @@ FilterResult Filter::run() {
 
 } // namespace
 
-FilterResult kalman_filter(std::span<const DriveRecord> passages,
+FilterResult kalman_filter(std::span<const DriveRecord> drives,
                            const RoadGrid& grid,
                            const RoadPrior& prior,
                            std::uint64_t seed,
                            SmootherMemory memory) {
-    return Filter{passages, grid, prior, seed, std::move(memory)}.run();
+    return Filter{drives, grid, prior, seed, std::move(memory)}.run();
 }
 
 } // namespace macadam

@@ -11,12 +11,12 @@ struct SampleOrder {
     std::ptrdiff_t last_cell; ///< last station required: the one ahead of the axle
 };
 
-/// Returns all samples of the passages, ordered by front axle position.
-std::vector<SampleOrder> events_of(std::span<const DriveRecord> passages, double cell_m);
+/// Returns all samples of the drives, ordered by front axle position.
+std::vector<SampleOrder> events_of(std::span<const DriveRecord> drives, double cell_m);
 
 /// Returns the effect of the stations on the event's car since the previous sample; empty for the
 /// first.
 RoadPush
-push_of(std::span<const DriveRecord> passages, const RoadGrid& grid, const SampleOrder& event);
+push_of(std::span<const DriveRecord> drives, const RoadGrid& grid, const SampleOrder& event);
 
 } // namespace macadam

@@ -4,13 +4,13 @@
 
 namespace macadam {
 
-SmoothedRoad smooth_road(std::span<const DriveRecord> passages,
+SmoothedRoad smooth_road(std::span<const DriveRecord> drives,
                          const RoadGrid& grid,
                          const RoadPrior& prior,
                          std::uint64_t seed,
                          SmootherMemory& memory) {
-    FilterResult forward = kalman_filter(passages, grid, prior, seed, std::move(memory));
-    SmoothedRoad road = disturbance_smoother(passages, grid, prior, forward);
+    FilterResult forward = kalman_filter(drives, grid, prior, seed, std::move(memory));
+    SmoothedRoad road = disturbance_smoother(drives, grid, prior, forward);
     road.log_likelihood = forward.log_likelihood;
     road.innovation = std::move(forward.innovation);
     road.log_variance = std::move(forward.log_variance);

@@ -35,7 +35,7 @@ struct SmoothedRoad {
     double log_likelihood = 0;        ///< of the readings, up to a constant
     std::vector<double> innovation;   ///< over its sd, in the order of processing
     std::vector<double> log_variance; ///< of the innovation
-    std::vector<std::array<Residual, channel_count>> residual; ///< per passage
+    std::vector<std::array<Residual, channel_count>> residual; ///< per drive
 };
 
 /// Update of the filter by one reading, as the backward pass needs it.
@@ -61,13 +61,13 @@ struct SmootherMemory {
 /// wheelbase. For a side of the road that affects no reading, the profile is 0 and the perturbation
 /// a draw of the prior.
 ///
-/// \param passages  at least one, each of two samples or more
+/// \param drives  at least one, each of two samples or more
 /// \param seed      of the draw; the same for the same stations and samples, however they are cut
 ///
 /// Source: J. Durbin, S. J. Koopman, "A simple and efficient simulation smoother for state space
 /// time series analysis", Biometrika 89 (2002), pp. 603-615; P. de Jong, "Smoothing and
 /// interpolation with the state-space model", JASA 84 (1989), pp. 1085-1088.
-SmoothedRoad smooth_road(std::span<const DriveRecord> passages,
+SmoothedRoad smooth_road(std::span<const DriveRecord> drives,
                          const RoadGrid& grid,
                          const RoadPrior& prior,
                          std::uint64_t seed,

@@ -8,11 +8,11 @@ constexpr auto heaves = static_cast<std::size_t>(LinearCar::heave_states);
 } // namespace
 
 SparseTransition step_sums(std::size_t side,
-                           const DriveRecord& passage,
+                           const DriveRecord& drive,
                            const SampleOrder& event,
                            const StateLayout& layout,
                            const RoadPush& push) {
-    const CarSteps& steps = car_at(passage, event.sample);
+    const CarSteps& steps = car_at(drive, event.sample);
     const auto& places = layout.cars[event.car];
     const std::size_t from = places.of_side(side).first;
     const std::size_t to = places.of_side(side).second;
@@ -42,7 +42,7 @@ SparseTransition step_sums(std::size_t side,
     }
     const std::size_t pull = side; // braking dips, cornering rolls
     if (from < to && places.arm[pull] != StateLayout::nowhere) {
-        const double pulled = passage.pull[pull][event.sample];
+        const double pulled = drive.pull[pull][event.sample];
         add(places.arm[pull], [&](std::size_t r) {
             return steps.lean(static_cast<int>(r), static_cast<int>(pull)) * pulled;
         });

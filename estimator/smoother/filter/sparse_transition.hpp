@@ -20,7 +20,7 @@ struct SparseTransition {
 /// \param event  a sample after the first
 /// \param push   effect of the stations since the previous sample
 SparseTransition step_sums(std::size_t side,
-                           const DriveRecord& passage,
+                           const DriveRecord& drive,
                            const SampleOrder& event,
                            const StateLayout& layout,
                            const RoadPush& push);

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Layout of the filter's state vector for some passages: for each car, the states that affect one
+/// Layout of the filter's state vector for some drives: for each car, the states that affect one
 /// of its readings, the zeros of the sampled channels and the lever arms of its pulls; and a window
 /// of stations that moves along under the cars. States without effect on a reading are left out:
 /// half the difference of the tracks with vertical acceleration only, pitch and rear wheels of a
@@ -44,6 +44,6 @@ struct StateLayout {
     }
 };
 
-StateLayout layout_of(std::span<const DriveRecord> passages, const RoadGrid& grid);
+StateLayout layout_of(std::span<const DriveRecord> drives, const RoadGrid& grid);
 
 } // namespace macadam

@@ -58,13 +58,13 @@ EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const T
     EndPasses ends;
     for (const auto& [sha256, trip] : trips) {
         std::vector<Row> rows;
-        std::vector<BlockPassage> passages;
+        std::vector<BlockVisit> visits;
         for (select.bind(trip); select.step();) {
             rows.push_back({select.integer(0), static_cast<std::uint32_t>(select.integer(1))});
-            passages.push_back({select.integer(2), blocks.block_of(key_in(select, 3))});
+            visits.push_back({select.integer(2), blocks.block_of(key_in(select, 3))});
         }
         select.reset();
-        const auto at_end = in_end_blocks(passages);
+        const auto at_end = in_end_blocks(visits);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (at_end[i]) {
                 ends.emplace(rows[i].fid, sha256, rows[i].occurrence);

@@ -78,7 +78,7 @@ std::string log_over_three_edges(const fs::path& folder) {
     return file.string();
 }
 
-TEST(MatchProgram, PrintsOneRowForEachPassageOfAnEdge) {
+TEST(MatchProgram, PrintsOneRowForEachTraversalOfAnEdge) {
     const auto folder = fresh_folder();
     const auto run = expect_done({"match",
                                   log_over_three_edges(folder),

@@ -213,11 +213,11 @@ Stretch with_sensors(Stretch stretch, const Sensors& sensors) {
     return stretch;
 }
 
-CarPassage exact_passage(const Stretch& stretch, const Vehicle& vehicle) {
-    DriveRecord passage;
-    passage.cars = {car_steps(linear_car(vehicle), stretch.step_s)};
-    passage.travel_m = stretch.travel_m;
-    passage.drift = {1e-4, 1e-4, 1e-6, 1e-6};
+VehicleDrive exact_drive(const Stretch& stretch, const Vehicle& vehicle) {
+    DriveRecord drive;
+    drive.cars = {car_steps(linear_car(vehicle), stretch.step_s)};
+    drive.travel_m = stretch.travel_m;
+    drive.drift = {1e-4, 1e-4, 1e-6, 1e-6};
     const std::vector<float>* const channels[] = {
         &stretch.vertical_mps2, &stretch.lateral_mps2, &stretch.roll_radps, &stretch.pitch_radps};
     const double noise[] = {vehicle.imu.noise_mps2,
@@ -226,10 +226,10 @@ CarPassage exact_passage(const Stretch& stretch, const Vehicle& vehicle) {
                             vehicle.imu.noise_radps};
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         const auto& felt = *channels[channel];
-        passage.felt[channel].assign(felt.begin(), felt.end());
-        passage.variance[channel].assign(felt.size(), noise[channel] * noise[channel]);
+        drive.felt[channel].assign(felt.begin(), felt.end());
+        drive.variance[channel].assign(felt.size(), noise[channel] * noise[channel]);
     }
-    return {.passage = std::move(passage), .vehicle = vehicle, .friction_n = 0};
+    return {.drive = std::move(drive), .vehicle = vehicle, .friction_n = 0};
 }
 
 std::vector<Held> held_beside(const IriRun& run,

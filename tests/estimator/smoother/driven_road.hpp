@@ -59,7 +59,7 @@ struct Sensors {
 Stretch with_sensors(Stretch stretch, const Sensors& sensors);
 
 /// A stretch as joint smoothing takes it, of a car that is known exactly.
-CarPassage exact_passage(const Stretch& stretch, const Vehicle& vehicle);
+VehicleDrive exact_drive(const Stretch& stretch, const Vehicle& vehicle);
 
 /// A piece of road: what was said of it and what is true, mm/m.
 struct Held {

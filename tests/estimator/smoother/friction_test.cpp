@@ -26,13 +26,13 @@ Vehicle even_car() {
     return vehicle;
 }
 
-DriveRecord passage_over(const Vehicle& vehicle, double length_m) {
-    DriveRecord passage;
-    passage.cars = cars_with_friction(vehicle, step_s);
+DriveRecord drive_over(const Vehicle& vehicle, double length_m) {
+    DriveRecord drive;
+    drive.cars = cars_with_friction(vehicle, step_s);
     for (double at_m = 5; at_m < length_m - 5; at_m += run_m) {
-        passage.travel_m.push_back(at_m);
+        drive.travel_m.push_back(at_m);
     }
-    return passage;
+    return drive;
 }
 
 RoadGrid grid_of(const std::vector<Pair>& road_m) {
@@ -60,9 +60,9 @@ std::vector<Pair> chance(double rise_m, double length_m) {
 
 /// Speeds of the four strokes over a road, from the wheels' and the body's corners.
 std::vector<double>
-stroke_rates(const Vehicle& vehicle, const DriveRecord& passage, const std::vector<Pair>& road_m) {
+stroke_rates(const Vehicle& vehicle, const DriveRecord& drive, const std::vector<Pair>& road_m) {
     std::vector<double> rates;
-    for (const auto& x : simulate_response(passage, grid_of(road_m), road_m)) {
+    for (const auto& x : simulate_response(drive, grid_of(road_m), road_m)) {
         const auto corners = corners_of(x);
         const auto& rate = corners.rate;
         for (std::size_t wheel = 0; wheel < 4; ++wheel) {
@@ -74,7 +74,7 @@ stroke_rates(const Vehicle& vehicle, const DriveRecord& passage, const std::vect
     return rates;
 }
 
-/// The damping that holds in the middle of the passage, over the car's own; a mean over the middle
+/// The damping that holds in the middle of the drive, over the car's own; a mean over the middle
 /// half, in the logarithm.
 double log_damping(const std::vector<std::uint8_t>& which) {
     double sum = 0;
@@ -104,15 +104,15 @@ TEST(Friction, GivesCarsOfWhichTheFirstIsTheVehicleAndEachNextIsHarderBySixPerce
 /// speed A w is that of any corner.
 TEST(Friction, OnASineDampsAsTheDamperOfTheSameWork) {
     const auto vehicle = even_car();
-    const auto passage = passage_over(vehicle, 300);
+    const auto drive = drive_over(vehicle, 300);
     const auto road_m = sines(2.5, 0.004, 300);
-    auto rates = stroke_rates(vehicle, passage, road_m);
+    auto rates = stroke_rates(vehicle, drive, road_m);
     rates.erase(rates.begin(), rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2));
     const double speed_mps = std::ranges::max(rates);
     ASSERT_GT(speed_mps, 0.1);
     const double friction_n = 60;
     const auto which =
-        damping_with_friction(passage, vehicle, grid_of(road_m), {{road_m}}, friction_n);
+        damping_with_friction(drive, vehicle, grid_of(road_m), {{road_m}}, friction_n);
     const double added = 4 * friction_n / (std::numbers::pi * speed_mps);
     // Friction that begins at 5 mm/s takes up to 1 % less.
     EXPECT_NEAR(
@@ -122,12 +122,12 @@ TEST(Friction, OnASineDampsAsTheDamperOfTheSameWork) {
 /// Of a Gaussian speed of deviation s: c = F sqrt(2 / pi) / s.
 TEST(Friction, OnAGaussianRoadDampsAsStatisticalLinearisationSays) {
     const auto vehicle = even_car();
-    const auto passage = passage_over(vehicle, 1500);
+    const auto drive = drive_over(vehicle, 1500);
     const auto road_m = chance(0.0012, 1500);
     // Front and rear suspension, left and right, are as fast as one another on such a road: one
     // deviation. Within 50 m it scatters by some 7 %, of which the mean over 700 m leaves 2 %.
     double square = 0;
-    const auto rates = stroke_rates(vehicle, passage, road_m);
+    const auto rates = stroke_rates(vehicle, drive, road_m);
     for (const double rate : rates) {
         square += rate * rate;
     }
@@ -135,28 +135,28 @@ TEST(Friction, OnAGaussianRoadDampsAsStatisticalLinearisationSays) {
     ASSERT_GT(sd_mps, 0.03);
     const double friction_n = 60;
     const auto which =
-        damping_with_friction(passage, vehicle, grid_of(road_m), {{road_m}}, friction_n);
+        damping_with_friction(drive, vehicle, grid_of(road_m), {{road_m}}, friction_n);
     const double added = friction_n * std::sqrt(2 / std::numbers::pi) / sd_mps;
     EXPECT_NEAR(log_damping(which), std::log1p(added / vehicle.half_car.cs_ns_per_m), 0.03);
 }
 
 TEST(Friction, OfNothingChangesNothing) {
     const auto vehicle = even_car();
-    const auto passage = passage_over(vehicle, 200);
+    const auto drive = drive_over(vehicle, 200);
     const auto road_m = chance(0.0012, 200);
-    const auto which = damping_with_friction(passage, vehicle, grid_of(road_m), {{road_m}}, 0);
-    EXPECT_EQ(which.size(), passage.travel_m.size());
+    const auto which = damping_with_friction(drive, vehicle, grid_of(road_m), {{road_m}}, 0);
+    EXPECT_EQ(which.size(), drive.travel_m.size());
     EXPECT_EQ(std::ranges::max(which), 0);
 }
 
 TEST(Friction, HoldsTheCarHarderOnASmootherRoad) {
     const auto vehicle = even_car();
-    const auto passage = passage_over(vehicle, 600);
+    const auto drive = drive_over(vehicle, 600);
     auto road_m = chance(0.0004, 300);
     for (const auto& pair : chance(0.002, 300)) {
         road_m.push_back({pair.mean, pair.half});
     }
-    const auto which = damping_with_friction(passage, vehicle, grid_of(road_m), {{road_m}}, 30);
+    const auto which = damping_with_friction(drive, vehicle, grid_of(road_m), {{road_m}}, 30);
     const auto at = [&](double at_m) {
         return which[static_cast<std::size_t>((at_m - 5) / run_m)];
     };
@@ -165,9 +165,9 @@ TEST(Friction, HoldsTheCarHarderOnASmootherRoad) {
 
 TEST(Friction, OnALevelRoadIsNoDamper) {
     const auto vehicle = even_car();
-    const auto passage = passage_over(vehicle, 100);
+    const auto drive = drive_over(vehicle, 100);
     const std::vector<Pair> road_m(400);
-    const auto which = damping_with_friction(passage, vehicle, grid_of(road_m), {{road_m}}, 50);
+    const auto which = damping_with_friction(drive, vehicle, grid_of(road_m), {{road_m}}, 50);
     EXPECT_EQ(std::ranges::max(which), 0) << "nothing moves";
 }
 

@@ -123,8 +123,8 @@ TEST(TunedCar, WithOneAxleHasNoDynamicIndexToTune) {
     stated.axles.reset();
     stated.uncertainty = {{"dynamic_index", 0.1}, {"kt_n_per_m", 0.05}};
     const auto stretch = driven_road(drive_of(1300)).stretch;
-    const auto passage = exact_passage(stretch, stated).passage;
-    const auto tuned = tuned_car(passage, stated, {});
+    const auto drive = exact_drive(stretch, stated).drive;
+    const auto tuned = tuned_car(drive, stated, {});
     EXPECT_FALSE(tuned.vehicle.axles);
     EXPECT_NEAR(tuned.vehicle.half_car.kt_n_per_m / stated.half_car.kt_n_per_m, 1, 0.08);
 }
@@ -137,7 +137,7 @@ TEST(WheelOrder, IsNotFoundOnAHundredRoadsWithRoundWheels) {
         recipe.seed = seed;
         recipe.imu_seed = seed;
         const auto stretch = driven_road(recipe).stretch;
-        found += wheel_circumference_m(exact_passage(stretch, car()).passage) ? 1 : 0;
+        found += wheel_circumference_m(exact_drive(stretch, car()).drive) ? 1 : 0;
     }
     std::printf("lines on 100 roads without one: %d\n", found);
     EXPECT_LE(found, 1);
@@ -147,7 +147,7 @@ TEST(WheelOrder, IsFoundOfACarWithUnevenTyres) {
     auto recipe = drive_of(3000);
     recipe.car.tyre_nonuniformity_n = 40;
     const auto stretch = driven_road(recipe).stretch;
-    const auto found = wheel_circumference_m(exact_passage(stretch, car()).passage);
+    const auto found = wheel_circumference_m(exact_drive(stretch, car()).drive);
     ASSERT_TRUE(found);
     EXPECT_NEAR(*found, 2 * 3.14159265 * recipe.car.tyre_radius_m, 0.01);
 }

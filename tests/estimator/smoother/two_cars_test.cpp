@@ -11,7 +11,7 @@ namespace {
 constexpr double segment_m = 40;
 
 struct Crossing {
-    std::vector<CarPassage> passages;
+    std::vector<VehicleDrive> drives;
     TrueStroke truth;
 };
 
@@ -24,7 +24,7 @@ Crossing crossing_of(const World& world, double speed_kmh) {
         recipe.car = linear_car_of(two_axle_car(axles, 0.3));
         recipe.imu_seed += static_cast<std::uint64_t>(100 * wheelbase_m);
         auto driven = driven_road(recipe);
-        crossing.passages.push_back(exact_passage(driven.stretch, recipe.car.vehicle));
+        crossing.drives.push_back(exact_drive(driven.stretch, recipe.car.vehicle));
         crossing.truth = std::move(driven.truth);
     }
     return crossing;
@@ -36,11 +36,11 @@ TEST_P(TwoCars, TogetherAreWithinFourPercent) {
     std::vector<Held> together;
     std::vector<Held> alone;
     for (const auto& world : worlds()) {
-        const auto [passages, truth] = crossing_of(world, GetParam());
-        const auto both = held_beside(smooth_passages(passages, {}), truth, segment_m);
+        const auto [drives, truth] = crossing_of(world, GetParam());
+        const auto both = held_beside(smooth_drives(drives, {}), truth, segment_m);
         print(world.name, GetParam(), both);
         append(together, both);
-        append(alone, held_beside(smooth_passages({passages.front()}, {}), truth, segment_m));
+        append(alone, held_beside(smooth_drives({drives.front()}, {}), truth, segment_m));
     }
     print("two cars together", GetParam(), together);
     print("the first alone", GetParam(), alone);

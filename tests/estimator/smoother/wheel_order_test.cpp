@@ -24,26 +24,26 @@ DriveRecord felt_on_chance(double length_m, unsigned seed) {
     while (static_cast<double>(road_m.size()) * cell_m < length_m + 20) {
         road_m.push_back({road_m.back().mean + 0.0012 * normal(random), 0});
     }
-    DriveRecord passage;
-    passage.cars = {steps};
+    DriveRecord drive;
+    drive.cars = {steps};
     double at_m = 5;
     for (int k = 0; at_m < length_m + 5; ++k) {
-        passage.travel_m.push_back(at_m);
+        drive.travel_m.push_back(at_m);
         at_m += 0.4 + 0.04 * std::sin(0.01 * k);
     }
-    for (const auto& x : simulate_response(passage, {cell_m, 0, road_m.size()}, road_m)) {
-        passage.felt[0].push_back((steps.car.felt[0] * x).value() + 0.05 * normal(random));
+    for (const auto& x : simulate_response(drive, {cell_m, 0, road_m.size()}, road_m)) {
+        drive.felt[0].push_back((steps.car.felt[0] * x).value() + 0.05 * normal(random));
     }
-    return passage;
+    return drive;
 }
 
-DriveRecord with_line(DriveRecord passage, double turn_m, double amplitude) {
-    for (std::size_t k = 0; k < passage.travel_m.size(); ++k) {
-        const double turns = passage.travel_m[k] / turn_m;
-        passage.felt[0][k] += amplitude * std::cos(2 * std::numbers::pi * turns + 0.7) +
-                              0.4 * amplitude * std::cos(4 * std::numbers::pi * turns);
+DriveRecord with_line(DriveRecord drive, double turn_m, double amplitude) {
+    for (std::size_t k = 0; k < drive.travel_m.size(); ++k) {
+        const double turns = drive.travel_m[k] / turn_m;
+        drive.felt[0][k] += amplitude * std::cos(2 * std::numbers::pi * turns + 0.7) +
+                            0.4 * amplitude * std::cos(4 * std::numbers::pi * turns);
     }
-    return passage;
+    return drive;
 }
 
 double rms(const std::vector<double>& values) {
@@ -66,25 +66,25 @@ std::vector<double> apart(std::vector<double> a, const std::vector<double>& b) {
 /// Pieces of 200 m tell frequencies 1 / 200 m apart, looked at twice as densely.
 TEST(WheelOrder, IsFoundWithinItsResolution) {
     for (const double turn_m : {1.7, 1.93, 2.2, 2.45}) {
-        const auto passage = felt_on_chance(2000, 1);
+        const auto drive = felt_on_chance(2000, 1);
         const auto found =
-            wheel_circumference_m(with_line(passage, turn_m, 0.5 * rms(passage.felt[0])));
+            wheel_circumference_m(with_line(drive, turn_m, 0.5 * rms(drive.felt[0])));
         ASSERT_TRUE(found) << turn_m;
         EXPECT_NEAR(1 / *found, 1 / turn_m, 0.5 / 200) << turn_m;
     }
 }
 
 TEST(WheelOrder, IsNotLookedForOnAShortWay) {
-    const auto passage = felt_on_chance(700, 1);
-    EXPECT_FALSE(wheel_circumference_m(with_line(passage, 1.93, 10)));
+    const auto drive = felt_on_chance(700, 1);
+    EXPECT_FALSE(wheel_circumference_m(with_line(drive, 1.93, 10)));
 }
 
 TEST(WheelOrder, IsNotFoundWhereNothingIsFelt) {
-    auto passage = felt_on_chance(1200, 1);
-    passage.felt[0].assign(passage.felt[0].size(), 0);
-    EXPECT_FALSE(wheel_circumference_m(passage));
-    passage.felt[0].clear();
-    EXPECT_FALSE(wheel_circumference_m(passage));
+    auto drive = felt_on_chance(1200, 1);
+    drive.felt[0].assign(drive.felt[0].size(), 0);
+    EXPECT_FALSE(wheel_circumference_m(drive));
+    drive.felt[0].clear();
+    EXPECT_FALSE(wheel_circumference_m(drive));
 }
 
 TEST(WheelOrder, IsTakenOutAndTheRestLeft) {

@@ -132,7 +132,7 @@ TEST(Passes, OfTheOtherDirectionCountDown) {
     EXPECT_EQ(passes.back().segment, (SegmentKey{1, false, 0}));
 }
 
-TEST(Passes, OfPiecesOfOnePassageAddUp) {
+TEST(Passes, OfPiecesOfOneTraversalAddUp) {
     const auto art = straight();
     const auto trace = trace_of(
         40,

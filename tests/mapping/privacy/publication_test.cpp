@@ -130,19 +130,19 @@ TEST(Release, TellsOfWhatHasAgedWhoeverIsNew) {
 // ---------------------------------------------------------------------------------------- blocks
 
 TEST(DriveEnds, AreTheFirstAndTheLastBlock) {
-    const std::vector<BlockPassage> passages{
+    const std::vector<BlockVisit> visits{
         {0, 1}, {1000, 1}, {2000, 2}, {3000, 3}, {4000, 4}, {5000, 4}};
-    EXPECT_THAT(in_end_blocks(passages), ElementsAre(true, true, false, false, true, true));
+    EXPECT_THAT(in_end_blocks(visits), ElementsAre(true, true, false, false, true, true));
 }
 
 TEST(DriveEnds, AreAtLongPausesToo) {
-    const std::vector<BlockPassage> passages{
+    const std::vector<BlockVisit> visits{
         {0, 1}, {1000, 2}, {2000, 3}, {400'000, 4}, {401'000, 5}, {402'000, 6}};
-    EXPECT_THAT(in_end_blocks(passages), ElementsAre(true, false, true, true, false, true));
+    EXPECT_THAT(in_end_blocks(visits), ElementsAre(true, false, true, true, false, true));
 }
 
 TEST(DriveEnds, AreAllOfADriveOverOneBlock) {
-    EXPECT_THAT(in_end_blocks(std::vector<BlockPassage>{{0, 7}, {1000, 7}}), Each(true));
+    EXPECT_THAT(in_end_blocks(std::vector<BlockVisit>{{0, 7}, {1000, 7}}), Each(true));
 }
 
 TEST(NetworkBlocks, EndAtJunctionsAndAfterFiveHundredMetres) {

@@ -80,7 +80,7 @@ double found_in_a_drive(double times_worse, std::size_t channel) {
                                              .noise_radps = times_worse * vehicle.imu.noise_radps},
                                      .length_m = 250});
     const auto stretch = with_sensors(driven.stretch, {true, false, false, true});
-    const auto road = smooth_passages({exact_passage(stretch, vehicle)}, {});
+    const auto road = smooth_drives({exact_drive(stretch, vehicle)}, {});
     const auto& factors = road.noise[0][channel];
     return std::accumulate(factors.begin(), factors.end(), 0.0) /
            static_cast<double>(factors.size());

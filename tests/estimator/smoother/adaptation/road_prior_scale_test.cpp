@@ -234,13 +234,13 @@ TEST(RoadLevel, StaysANumberWhereNothingIsFelt) {
 }
 
 TEST(FeltBy, TellsWhichSidesTheChannelsFeel) {
-    DriveRecord passage;
+    DriveRecord drive;
     const auto felt = [&](Channel channel) {
         DriveRecord one;
         one.felt[static_cast<std::size_t>(channel)] = {1, 2};
         return felt_by({&one, 1});
     };
-    EXPECT_FALSE(felt_by({&passage, 1}).mean || felt_by({&passage, 1}).half);
+    EXPECT_FALSE(felt_by({&drive, 1}).mean || felt_by({&drive, 1}).half);
     EXPECT_TRUE(felt(Channel::vertical).mean && !felt(Channel::vertical).half);
     EXPECT_TRUE(felt(Channel::pitch_rate).mean && !felt(Channel::pitch_rate).half);
     EXPECT_TRUE(felt(Channel::lateral).half && !felt(Channel::lateral).mean);

@@ -73,14 +73,14 @@ double worst_channel(const Vehicle& vehicle, const std::vector<double>& travel_m
     for (std::size_t i = 0; i < left_m.size(); ++i) {
         road_m.push_back({(left_m[i] + right_m[i]) / 2, (left_m[i] - right_m[i]) / 2});
     }
-    DriveRecord passage;
-    passage.cars = {car_steps(linear_car(vehicle), step_s)};
-    passage.travel_m = travel_m;
-    const auto ours = simulate_response(passage, {cell_m, 0, road_m.size()}, road_m);
+    DriveRecord drive;
+    drive.cars = {car_steps(linear_car(vehicle), step_s)};
+    drive.travel_m = travel_m;
+    const auto ours = simulate_response(drive, {cell_m, 0, road_m.size()}, road_m);
     const auto theirs = ride(vehicle, left_m, right_m, cell_m, travel_m, step_s, 40);
     double worst = 0;
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
-        worst = std::max(worst, rms_apart(ours, theirs, passage.cars.front().car, channel));
+        worst = std::max(worst, rms_apart(ours, theirs, drive.cars.front().car, channel));
     }
     return worst;
 }
@@ -195,12 +195,12 @@ TEST(RideOver, WithOneAxleFollowsTheRoad) {
 }
 
 TEST(RideOver, BeginsAtRestOnTheRoadAsHighAsItLies) {
-    DriveRecord passage;
-    passage.cars = {car_steps(linear_car(lopsided_car()), 0.02)};
-    passage.travel_m = {5, 5.4, 5.8};
+    DriveRecord drive;
+    drive.cars = {car_steps(linear_car(lopsided_car()), 0.02)};
+    drive.travel_m = {5, 5.4, 5.8};
     const std::vector<Pair> road_m(60, Pair{0.3, 0});
-    const auto states = simulate_response(passage, {cell_m, 0, road_m.size()}, road_m);
-    ASSERT_EQ(states.size(), passage.travel_m.size());
+    const auto states = simulate_response(drive, {cell_m, 0, road_m.size()}, road_m);
+    ASSERT_EQ(states.size(), drive.travel_m.size());
     for (const auto& x : states) {
         EXPECT_NEAR(x[0], 0.3, 1e-12);
         EXPECT_NEAR(x[1], 0, 1e-10);

@@ -20,30 +20,30 @@ enum Felt : unsigned { vertical = 1, lateral = 2, roll = 4, pitch = 8 };
 constexpr unsigned everything = vertical | lateral | roll | pitch;
 
 /// Forty samples of what is asked for, at 12 to 18 m/s; both pulls known.
-DriveRecord passage_of(const Vehicle& vehicle, unsigned felt) {
-    DriveRecord passage;
-    passage.cars = {car_steps(linear_car(vehicle), step_s)};
+DriveRecord drive_of(const Vehicle& vehicle, unsigned felt) {
+    DriveRecord drive;
+    drive.cars = {car_steps(linear_car(vehicle), step_s)};
     double at_m = 5;
     for (int k = 0; k < 40; ++k) {
-        passage.travel_m.push_back(at_m);
+        drive.travel_m.push_back(at_m);
         at_m += step_s * (15 + 3 * std::sin(0.4 * k));
     }
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         if ((felt >> channel & 1U) != 0) {
-            passage.felt[channel].resize(40);
+            drive.felt[channel].resize(40);
         }
     }
-    passage.pull[0].resize(40);
-    passage.pull[1].resize(40);
-    return passage;
+    drive.pull[0].resize(40);
+    drive.pull[1].resize(40);
+    return drive;
 }
 
-StateLayout layout_of(const std::vector<DriveRecord>& passages) {
-    return macadam::layout_of(passages, grid_under(passages, cell_m));
+StateLayout layout_of(const std::vector<DriveRecord>& drives) {
+    return macadam::layout_of(drives, grid_under(drives, cell_m));
 }
 
 StateLayout layout_of(const Vehicle& vehicle, unsigned felt) {
-    return layout_of({passage_of(vehicle, felt)});
+    return layout_of({drive_of(vehicle, felt)});
 }
 
 Vehicle car_without_offset() {
@@ -59,12 +59,12 @@ Vehicle one_axle_car() {
 }
 
 /// Whether what is felt within a few steps tells anything of a state, by moving that state.
-bool tells_of(const DriveRecord& passage, int state) {
-    const CarSteps& steps = passage.cars.front();
+bool tells_of(const DriveRecord& drive, int state) {
+    const CarSteps& steps = drive.cars.front();
     States x = States::Unit(state);
     for (int k = 0; k < 5; ++k) {
         for (std::size_t channel = 0; channel < channel_count; ++channel) {
-            if (!passage.felt[channel].empty() &&
+            if (!drive.felt[channel].empty() &&
                 std::abs((steps.car.felt[channel] * x).value()) > 1e-9) {
                 return true;
             }
@@ -99,12 +99,12 @@ std::vector<std::size_t> all_places(const StateLayout& layout) {
 TEST(StateLayout, FollowsExactlyTheStatesOfWhichTheReadingsTell) {
     for (const auto& vehicle : {lopsided_car(), car_without_offset(), one_axle_car()}) {
         for (unsigned felt = 1; felt <= everything; ++felt) {
-            const auto passage = passage_of(vehicle, felt);
-            const auto layout = layout_of({passage});
+            const auto drive = drive_of(vehicle, felt);
+            const auto layout = layout_of({drive});
             for (int state = 0; state < LinearCar::states; ++state) {
                 const bool followed =
                     std::ranges::count(layout.cars[0].states, static_cast<std::size_t>(state)) == 1;
-                EXPECT_EQ(followed, tells_of(passage, state)) << felt << " " << state;
+                EXPECT_EQ(followed, tells_of(drive, state)) << felt << " " << state;
             }
         }
     }
@@ -114,7 +114,7 @@ TEST(StateLayout, GivesEveryNumberAPlaceOfItsOwn) {
     for (const auto& vehicle : {lopsided_car(), car_without_offset(), one_axle_car()}) {
         for (unsigned felt = 1; felt <= everything; ++felt) {
             const auto layout =
-                layout_of({passage_of(vehicle, felt), passage_of(lopsided_car(), vertical)});
+                layout_of({drive_of(vehicle, felt), drive_of(lopsided_car(), vertical)});
             auto places = all_places(layout);
             std::ranges::sort(places);
             std::vector<std::size_t> all(layout.size);
@@ -172,19 +172,19 @@ TEST(StateLayout, OfOneAxleHasNeitherPitchNorRearWheels) {
 }
 
 TEST(StateLayout, OfUnknownPullsHasNoArms) {
-    auto passage = passage_of(lopsided_car(), everything);
-    passage.pull = {};
-    EXPECT_THAT(layout_of({passage}).cars[0].arm, ElementsAre(nowhere, nowhere));
+    auto drive = drive_of(lopsided_car(), everything);
+    drive.pull = {};
+    EXPECT_THAT(layout_of({drive}).cars[0].arm, ElementsAre(nowhere, nowhere));
 }
 
 TEST(StateLayout, HoldsEveryStationUnderTheCarThroughAStep) {
-    const auto passage = passage_of(lopsided_car(), everything);
-    const auto layout = layout_of({passage});
-    const auto& car = passage.cars.front().car;
-    ASSERT_GT(passage.travel_m.size(), 1U);
-    for (std::size_t k = 1; k < passage.travel_m.size(); ++k) {
-        const double last = std::floor((passage.travel_m[k] + car.front_m) / cell_m) + 1;
-        const double first = std::floor((passage.travel_m[k - 1] + car.rear_m) / cell_m);
+    const auto drive = drive_of(lopsided_car(), everything);
+    const auto layout = layout_of({drive});
+    const auto& car = drive.cars.front().car;
+    ASSERT_GT(drive.travel_m.size(), 1U);
+    for (std::size_t k = 1; k < drive.travel_m.size(); ++k) {
+        const double last = std::floor((drive.travel_m[k] + car.front_m) / cell_m) + 1;
+        const double first = std::floor((drive.travel_m[k - 1] + car.rear_m) / cell_m);
         EXPECT_LE(last - first + 1, static_cast<double>(layout.window));
     }
 }

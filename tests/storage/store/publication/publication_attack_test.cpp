@@ -104,11 +104,11 @@ std::map<SegmentKey, std::vector<const CrowdTrip*>> trips_on_segments() {
     const NetworkBlocks blocks{world().town.roads()};
     std::map<SegmentKey, std::vector<const CrowdTrip*>> on;
     for (const auto& trip : world().trips) {
-        std::vector<BlockPassage> passages;
+        std::vector<BlockVisit> visits;
         for (const auto& pass : trip.kept) {
-            passages.push_back({pass.t_ms, blocks.block_of(pass.segment)});
+            visits.push_back({pass.t_ms, blocks.block_of(pass.segment)});
         }
-        const auto at_end = in_end_blocks(passages);
+        const auto at_end = in_end_blocks(visits);
         for (std::size_t i = 0; i < trip.kept.size(); ++i) {
             if (!at_end[i]) {
                 on[trip.kept[i].segment].push_back(&trip);
