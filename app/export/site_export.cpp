@@ -293,6 +293,7 @@ void export_site(const StoreReader& store,
                           .months =
                               months_within(site_months(store), filter.period.value_or(Period{})),
                           .overview = {},
+                          .first_picture = {},
                           .sources = file_sources(plan.tiles)};
     for (const auto& record : records) {
         totals.add(record);
@@ -310,6 +311,8 @@ void export_site(const StoreReader& store,
     if (write_overview(
             store, filter, files.place / overview_file, plan.title, plan.left_hand, console)) {
         manifest.overview = overview_file;
+        manifest.first_picture = write_first_pictures(
+            store, filter, files.place, manifest.bounds, plan.left_hand, console);
     }
     files.write("site.json", manifest_json(store, manifest, totals));
     write_vector_tiles(store, filter, files.place / "roads.pmtiles", plan.tiles, console);

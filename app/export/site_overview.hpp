@@ -5,6 +5,7 @@
 #include "storage/store/records/segment_filter.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,5 +26,17 @@ bool write_overview(const StoreReader& store,
                     const std::string& title,
                     bool left_hand,
                     const Console& console);
+
+/// Draws the map alone, as the page shows it before its own map is ready: first_light.png and
+/// first_dark.png in spherical Mercator, up to the edges.
+///
+/// \param bounds  of the roads
+/// \returns       bounds of the pictures; `std::nullopt` if this machine cannot draw
+std::optional<GeoBox> write_first_pictures(const StoreReader& store,
+                                           const SegmentFilter& filter,
+                                           const std::filesystem::path& folder,
+                                           const GeoBox& bounds,
+                                           bool left_hand,
+                                           const Console& console);
 
 } // namespace macadam

@@ -5,6 +5,7 @@
 #include "storage/store/reader/store_reader.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ struct SiteManifest {
     std::string title;
     bool left_hand = false;
     GeoBox bounds;
-    std::size_t segments = 0;        ///< measured
-    std::vector<std::string> months; ///< "2026-03", ascending
-    std::string overview;            ///< picture of all roads; "" = none
+    std::size_t segments = 0;            ///< measured
+    std::vector<std::string> months;     ///< "2026-03", ascending
+    std::string overview;                ///< picture of all roads; "" = none
+    std::optional<GeoBox> first_picture; ///< bounds of first_light.png and first_dark.png
     SiteSources sources;
 };
 

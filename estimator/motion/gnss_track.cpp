@@ -70,7 +70,7 @@ double farthest_m(const GnssPosition& a,
 }
 
 /// Path between two positions that the car certainly travelled.
-struct TravelSpan {
+struct TrackSpan {
     double begin_s;
     double end_s;
     double length_m;
@@ -92,7 +92,7 @@ public:
     }
 
     /// The car is taken as standing if the last position is too near to the anchor.
-    std::vector<TravelSpan> finish() {
+    std::vector<TrackSpan> finish() {
         if (last_.t_s > anchor_.t_s) {
             const bool still = !spans_.empty() || standing_since_anchor();
             spans_.push_back(
@@ -122,17 +122,17 @@ private:
     GnssPosition anchor_;
     GnssPosition last_;
     bool seen_ = true;
-    std::vector<TravelSpan> spans_;
+    std::vector<TrackSpan> spans_;
 };
 
 /// Returns the speed at a border of two spans: their mean, or that of the known one.
-float speed_between(const TravelSpan& before, const TravelSpan& after) {
+float speed_between(const TrackSpan& before, const TrackSpan& after) {
     const double first_mps = before.length_m / (before.end_s - before.begin_s);
     const double second_mps = after.length_m / (after.end_s - after.begin_s);
     return static_cast<float>(before.known ? (first_mps + second_mps) / 2 : second_mps);
 }
 
-Odometer::Knots knots_of(const std::vector<TravelSpan>& spans) {
+Odometer::Knots knots_of(const std::vector<TrackSpan>& spans) {
     constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
     Odometer::Knots knots;
     double travel_m = 0;

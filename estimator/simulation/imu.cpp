@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
-#include "estimator/simulation/portable_math.hpp"
 
 #include <fmt/format.h>
 
@@ -43,8 +42,8 @@ void check(const ImuRecipe& imu) {
 
 /// Returns the rotation from vehicle to sensor: the transpose of Rz(yaw) Ry(pitch) Rx(roll).
 Matrix to_sensor(const std::array<double, 3>& rpy_deg) {
-    const auto sine = [&](std::size_t i) { return exact::sin(rpy_deg[i] * pi / 180); };
-    const auto cosine = [&](std::size_t i) { return exact::cos(rpy_deg[i] * pi / 180); };
+    const auto sine = [&](std::size_t i) { return std::sin(rpy_deg[i] * pi / 180); };
+    const auto cosine = [&](std::size_t i) { return std::cos(rpy_deg[i] * pi / 180); };
     const double sr = sine(0), cr = cosine(0);
     const double sp = sine(1), cp = cosine(1);
     const double sy = sine(2), cy = cosine(2);
@@ -95,9 +94,9 @@ std::vector<Imu::Section> Imu::lowpass(int order, double corner_hz, double step_
     if (corner_hz == 0) {
         return sections;
     }
-    const double k = exact::sin(pi * corner_hz * step_s) / exact::cos(pi * corner_hz * step_s);
+    const double k = std::sin(pi * corner_hz * step_s) / std::cos(pi * corner_hz * step_s);
     for (int i = 0; i < order / 2; ++i) {
-        const double damping = 2 * exact::sin(pi * (2 * i + 1) / (2 * order)); // 1 / Q
+        const double damping = 2 * std::sin(pi * (2 * i + 1) / (2 * order)); // 1 / Q
         const double norm = 1 + damping * k + k * k;
         const double b = k * k / norm;
         sections.push_back(
@@ -111,7 +110,7 @@ std::vector<Imu::Section> Imu::lowpass(int order, double corner_hz, double step_
 
 /// Designs a mass on spring and damper whose base is moved, in the same way.
 Imu::Section Imu::mount(double hz, double damping, double step_s) {
-    const double k = exact::sin(pi * hz * step_s) / exact::cos(pi * hz * step_s);
+    const double k = std::sin(pi * hz * step_s) / std::cos(pi * hz * step_s);
     const double damped = 2 * damping * k;
     const double norm = 1 + damped + k * k;
     return {(k * k + damped) / norm,

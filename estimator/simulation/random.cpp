@@ -1,7 +1,6 @@
 #include "estimator/simulation/random.hpp"
 
 #include "estimator/common/splitmix.hpp"
-#include "estimator/simulation/portable_math.hpp"
 
 #include <bit>
 #include <cmath>
@@ -65,7 +64,7 @@ double Random::normal() {
         v = 2 * uniform() - 1;
         square = u * u + v * v;
     } while (square >= 1 || square == 0);
-    const double stretch = std::sqrt(-2 * exact::log(square) / square);
+    const double stretch = std::sqrt(-2 * std::log(square) / square);
     spare_ = v * stretch;
     has_spare_ = true;
     return u * stretch;

@@ -1,6 +1,5 @@
 #include "estimator/simulation/road_features.hpp"
 
-#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 
 #include <algorithm>
@@ -113,7 +112,7 @@ double pothole(double at_m, double length_m) {
     if (at_m <= 0 || at_m >= length_m) {
         return 0;
     }
-    return 0.5 - 0.5 * exact::cos(2 * std::numbers::pi * at_m / length_m);
+    return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * at_m / length_m);
 }
 
 double Pothole::part_at(double line_lateral_m) const {

@@ -1,7 +1,6 @@
 #include "estimator/simulation/road_spectrum.hpp"
 
 #include "estimator/iri/iri.hpp"
-#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/road_features.hpp"
 
 #include <algorithm>
@@ -164,12 +163,12 @@ using Steepness = std::array<double, RoadFilter::pair_count>;
 RoadFilter filter_of(const Steepness& steepness, double step_m) {
     RoadFilter filter{};
     filter.step_m = step_m;
-    filter.leak = exact::exp(-2 * pi * step_m / longest_wave_m);
-    const double ratio = exact::pow(bent_to_per_m / bent_from_per_m, 1.0 / RoadFilter::pair_count);
+    filter.leak = std::exp(-2 * pi * step_m / longest_wave_m);
+    const double ratio = std::pow(bent_to_per_m / bent_from_per_m, 1.0 / RoadFilter::pair_count);
     for (std::size_t i = 0; i < steepness.size(); ++i) {
         const auto at = [&](double shift) {
-            return exact::exp(-2 * pi * step_m * bent_from_per_m *
-                              exact::pow(ratio, static_cast<double>(i) + 0.5 + shift));
+            return std::exp(-2 * pi * step_m * bent_from_per_m *
+                            std::pow(ratio, static_cast<double>(i) + 0.5 + shift));
         };
         filter.pole[i] = at(-steepness[i] / 2);
         filter.zero[i] = at(steepness[i] / 2);
@@ -206,8 +205,7 @@ RoadFilter bent_filter(Steepness steepness, std::span<const BentOctave> octaves,
             if (octave.ratio) {
                 const double wave = octave.shortest_wave_m;
                 const double now = mean_slope_density_m(filter, wave) / middle;
-                const double by =
-                    exact::log(*octave.ratio / now) / (2 * exact::log(wave / middle_m));
+                const double by = std::log(*octave.ratio / now) / (2 * std::log(wave / middle_m));
                 steepness[octave.first_pair] += by;
                 steepness[octave.second_pair] += by;
             }
@@ -233,7 +231,7 @@ RoadFilter road_filter(const RoadRecipe& recipe, double step_m) {
 }
 
 double density_m3(const RoadFilter& filter, double waves_per_m) {
-    const double cos_w = exact::cos(2 * pi * waves_per_m * filter.step_m);
+    const double cos_w = std::cos(2 * pi * waves_per_m * filter.step_m);
     double gain = 1 / power(filter.leak, cos_w);
     for (std::size_t i = 0; i < filter.pole.size(); ++i) {
         gain *= power(filter.zero[i], cos_w) / power(filter.pole[i], cos_w);
@@ -245,16 +243,16 @@ double golden_stroke_sd(const RoadFilter& filter) {
     constexpr int points = 400;
     constexpr double from_per_m = 0.002;
     const double to_per_m = 0.5 / filter.step_m;
-    const double ratio = exact::pow(to_per_m / from_per_m, 1.0 / points);
+    const double ratio = std::pow(to_per_m / from_per_m, 1.0 / points);
     double sum = 0;
     double n = from_per_m;
     for (int i = 0; i <= points; ++i) {
-        const double slope = 2 * exact::sin(pi * n * contact_patch_m) / contact_patch_m;
+        const double slope = 2 * std::sin(pi * n * contact_patch_m) / contact_patch_m;
         const double weight = i == 0 || i == points ? 0.5 : 1; // trapezoidal rule over log n
         sum += weight * n * density_m3(filter, n) * slope * slope * golden_power(n);
         n *= ratio;
     }
-    return std::sqrt(sum * exact::log(ratio));
+    return std::sqrt(sum * std::log(ratio));
 }
 
 std::vector<double> golden_stroke(std::span<const double> elevation_m, double step_m) {

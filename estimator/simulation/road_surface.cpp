@@ -1,7 +1,6 @@
 #include "estimator/simulation/road_surface.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 #include "estimator/simulation/road_features.hpp"
 #include "estimator/simulation/road_spectrum.hpp"
@@ -64,8 +63,8 @@ void check(const RoadRecipe& recipe, double length_m) {
 class Level {
 public:
     Level(const RoadRecipe& recipe, double step_m, std::uint64_t seed)
-        : random_{seed}, sd_{recipe.level_sd}, pole_{exact::exp(-2 * level_step_m /
-                                                                recipe.level_length_m)},
+        : random_{seed}, sd_{recipe.level_sd}, pole_{std::exp(-2 * level_step_m /
+                                                              recipe.level_length_m)},
           gain_{std::sqrt((1 - pole_ * pole_) * (1 - pole_ * pole_) * (1 - pole_ * pole_) /
                           (1 + pole_ * pole_))},
           rise_{step_m / level_step_m} {
@@ -89,7 +88,7 @@ private:
         first_ = pole_ * first_ + random_.normal();
         second_ = pole_ * second_ + first_;
         from_ = to_;
-        to_ = exact::exp(sd_ * gain_ * second_ - sd_ * sd_ / 2);
+        to_ = std::exp(sd_ * gain_ * second_ - sd_ * sd_ / 2);
     }
 
     Random random_;
@@ -111,7 +110,7 @@ std::array<double, tap_count> taps() {
     double square = 0;
     for (std::size_t i = 0; i < tap_count; ++i) {
         const double d = (static_cast<double>(i) - taps_a_side) * across_m / alike_across_m;
-        weight[i] = exact::exp(-d * d);
+        weight[i] = std::exp(-d * d);
         square += weight[i] * weight[i];
     }
     for (double& w : weight) {
@@ -144,7 +143,7 @@ class Shaper {
 public:
     Shaper(const RoadFilter& filter, double coherency_length_m) : filter_{filter} {
         const double half_turn = pi * filter.step_m / coherency_length_m;
-        const double k = exact::sin(half_turn) / exact::cos(half_turn);
+        const double k = std::sin(half_turn) / std::cos(half_turn);
         pole_ = (1 - k) / (1 + k);
         low_ = k / (1 + k);
         high_ = 1 / (1 + k);

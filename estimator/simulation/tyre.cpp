@@ -1,11 +1,11 @@
 #include "estimator/simulation/tyre.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/simulation/portable_math.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace macadam {
@@ -108,8 +108,8 @@ TyreNonUniformity::TyreNonUniformity(const CarRecipe& car, Random& random) {
         for (std::size_t part = 0; part <= part_count; ++part) {
             const double angle =
                 2 * pi * static_cast<double>(part) / static_cast<double>(part_count);
-            height_m_[wheel][part] = first_m * exact::cos(angle + first_phase) +
-                                     second_m * exact::cos(2 * angle + second_phase);
+            height_m_[wheel][part] = first_m * std::cos(angle + first_phase) +
+                                     second_m * std::cos(2 * angle + second_phase);
         }
     }
 }

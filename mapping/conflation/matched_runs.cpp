@@ -15,7 +15,7 @@ constexpr double straight_m = 0.3; // along the road; smaller deviations are dig
 constexpr double step_back_m = 6;  // as in a walk; more is a second lap of a loop
 
 /// Old and new station of one point.
-struct Knot {
+struct StationPair {
     double before_m;
     double after_m;
 };
@@ -24,7 +24,7 @@ struct Knot {
 struct Stretch {
     std::uint32_t way;
     bool forward;
-    std::vector<Knot> knots; ///< both stations increase
+    std::vector<StationPair> pairs; ///< both stations increase
 };
 
 /// Returns the travelled distance along the new roads for each position of a run.
@@ -85,36 +85,36 @@ std::vector<Stretch> stretches_of(const RoadNetwork& after, const WayMatchRun& r
         const double at_m = station_on(link, forward, place.along_m);
         if (stretches.empty() || stretches.back().way != link.way ||
             stretches.back().forward != forward ||
-            at_m < stretches.back().knots.back().after_m - step_back_m) {
+            at_m < stretches.back().pairs.back().after_m - step_back_m) {
             stretches.push_back({link.way, forward, {}});
         }
-        auto& knots = stretches.back().knots;
-        const double min_m = knots.empty() ? at_m : knots.back().after_m;
-        knots.push_back({place.offset_m, std::max(at_m, min_m)});
+        auto& pairs = stretches.back().pairs;
+        const double min_m = pairs.empty() ? at_m : pairs.back().after_m;
+        pairs.push_back({place.offset_m, std::max(at_m, min_m)});
     }
     return stretches;
 }
 
-/// Keeps the minimum of knots, always including the last: those off the straight line between their
+/// Keeps the minimum of pairs, always including the last: those off the straight line between their
 /// neighbours.
-std::vector<Knot> straightened(std::span<const Knot> knots) {
+std::vector<StationPair> straightened(std::span<const StationPair> pairs) {
     const auto off_line_m = [&](std::size_t i, std::size_t from, std::size_t to) {
-        const auto &first = knots[from], &last = knots[to];
+        const auto &first = pairs[from], &last = pairs[to];
         const double slope = last.before_m > first.before_m
                                  ? (last.after_m - first.after_m) / (last.before_m - first.before_m)
                                  : 0;
-        const double on_line_m = first.after_m + slope * (knots[i].before_m - first.before_m);
-        return std::abs(knots[i].after_m - on_line_m);
+        const double on_line_m = first.after_m + slope * (pairs[i].before_m - first.before_m);
+        return std::abs(pairs[i].after_m - on_line_m);
     };
-    std::vector<bool> stays(knots.size(), false);
-    if (!knots.empty()) {
+    std::vector<bool> stays(pairs.size(), false);
+    if (!pairs.empty()) {
         stays.front() = stays.back() = true;
-        keep_bends(0, knots.size() - 1, straight_m, off_line_m, stays);
+        keep_bends(0, pairs.size() - 1, straight_m, off_line_m, stays);
     }
-    std::vector<Knot> straight;
-    for (std::size_t i = 0; i < knots.size(); ++i) {
+    std::vector<StationPair> straight;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (stays[i]) {
-            straight.push_back(knots[i]);
+            straight.push_back(pairs[i]);
         }
     }
     return straight;
@@ -131,7 +131,7 @@ double before_m(const WayMatchRun& run) {
 double after_m(const std::vector<Stretch>& stretches) {
     double sum_m = 0;
     for (const auto& stretch : stretches) {
-        sum_m += stretch.knots.back().after_m - stretch.knots.front().after_m;
+        sum_m += stretch.pairs.back().after_m - stretch.pairs.front().after_m;
     }
     return sum_m;
 }
@@ -160,16 +160,16 @@ std::vector<RoadCorrespondence> same_roads(const RoadNetwork& before,
             continue;
         }
         for (const auto& stretch : stretches) {
-            const auto knots = straightened(stretch.knots);
-            for (std::size_t i = 1; i < knots.size() && !left_out[stretch.way]; ++i) {
+            const auto pairs = straightened(stretch.pairs);
+            for (std::size_t i = 1; i < pairs.size() && !left_out[stretch.way]; ++i) {
                 const RoadCorrespondence road{{old.id,
                                                forward,
-                                               whole_mm(start_m + knots[i - 1].before_m),
-                                               whole_mm(start_m + knots[i].before_m)},
+                                               whole_mm(start_m + pairs[i - 1].before_m),
+                                               whole_mm(start_m + pairs[i].before_m)},
                                               {way_at(after, stretch.way).id,
                                                stretch.forward,
-                                               whole_mm(knots[i - 1].after_m),
-                                               whole_mm(knots[i].after_m)}};
+                                               whole_mm(pairs[i - 1].after_m),
+                                               whole_mm(pairs[i].after_m)}};
                 if (road.before.to_station_m > road.before.from_station_m &&
                     road.after.to_station_m > road.after.from_station_m) {
                     roads.push_back(road);

@@ -15,37 +15,37 @@ namespace {
 constexpr double min_cover = 0.5; // of a cell, as of a segment
 
 /// Station and travel at the same time of a drive.
-struct Knot {
+struct StationSample {
     double station_m;
     double travel_m;
 };
 
-/// Returns knots with increasing station and travel. Backward steps within a drive are rounding
+/// Returns samples with increasing station and travel. Backward steps within a drive are rounding
 /// errors.
-std::vector<Knot> knots_of(std::span<const SegmentOverlap> parts) {
-    std::vector<Knot> knots;
-    const auto add = [&](const Knot& knot) {
-        if (knots.empty() ||
-            (knot.station_m > knots.back().station_m && knot.travel_m >= knots.back().travel_m)) {
-            knots.push_back(knot);
+std::vector<StationSample> samples_of(std::span<const SegmentOverlap> parts) {
+    std::vector<StationSample> samples;
+    const auto add = [&](const StationSample& sample) {
+        if (samples.empty() || (sample.station_m > samples.back().station_m &&
+                                sample.travel_m >= samples.back().travel_m)) {
+            samples.push_back(sample);
         }
     };
     for (const auto& part : parts) {
         add({part.from_station_m, part.travel.from_m});
         add({part.to_station_m, part.travel.to_m});
     }
-    return knots;
+    return samples;
 }
 
 /// Interpolates travel; extrapolated one to one beyond the ends.
-double travel_at(std::span<const Knot> knots, double station_m) {
-    if (station_m <= knots.front().station_m) {
-        return knots.front().travel_m + station_m - knots.front().station_m;
+double travel_at(std::span<const StationSample> samples, double station_m) {
+    if (station_m <= samples.front().station_m) {
+        return samples.front().travel_m + station_m - samples.front().station_m;
     }
-    if (station_m >= knots.back().station_m) {
-        return knots.back().travel_m + station_m - knots.back().station_m;
+    if (station_m >= samples.back().station_m) {
+        return samples.back().travel_m + station_m - samples.back().station_m;
     }
-    const auto next = std::ranges::upper_bound(knots, station_m, {}, &Knot::station_m);
+    const auto next = std::ranges::upper_bound(samples, station_m, {}, &StationSample::station_m);
     const auto before = next - 1;
     return std::lerp(before->travel_m,
                      next->travel_m,
@@ -88,13 +88,14 @@ RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
                         const std::optional<TrackDifference>& tracks,
                         const RoadNetwork& roads,
                         const Vehicle& vehicle) {
-    const auto knots = knots_of(parts);
+    const auto samples = samples_of(parts);
     const auto first =
-        static_cast<std::int32_t>(std::floor(knots.front().station_m - trace_margin_m));
-    const auto last = static_cast<std::int32_t>(std::ceil(knots.back().station_m + trace_margin_m));
+        static_cast<std::int32_t>(std::floor(samples.front().station_m - trace_margin_m));
+    const auto last =
+        static_cast<std::int32_t>(std::ceil(samples.back().station_m + trace_margin_m));
     std::vector<TraceCell> cells;
     for (auto metre = first; metre < last; ++metre) {
-        const TravelSpan travel{travel_at(knots, metre), travel_at(knots, metre + 1)};
+        const TravelSpan travel{travel_at(samples, metre), travel_at(samples, metre + 1)};
         const bool is_readable = travel.from_m >= readable.from_m && travel.to_m <= readable.to_m;
         cells.push_back(is_readable ? cell_over(travel, roughness, tracks, vehicle) : TraceCell{});
     }

@@ -1,6 +1,5 @@
 #include "mapping/simulation/gnss_receiver.hpp"
 
-#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 #include "mapping/simulation/smoothing.hpp"
 
@@ -81,7 +80,7 @@ PositionError position_error(std::size_t count, const GnssRecipe& gnss, std::uin
 
 /// Returns the course, clockwise from north.
 double course_of_deg(const PointEn& velocity) {
-    const double degrees = exact::atan2(velocity.east_m, velocity.north_m) * 180 / std::numbers::pi;
+    const double degrees = std::atan2(velocity.east_m, velocity.north_m) * 180 / std::numbers::pi;
     return degrees < 0 ? degrees + 360 : degrees;
 }
 

@@ -1,7 +1,6 @@
 #include "mapping/simulation/lane.hpp"
 
 #include "estimator/iri/iri.hpp"
-#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 #include "estimator/simulation/road_features.hpp"
 
@@ -47,7 +46,7 @@ LaneDraws draws_of(const WayView& way, bool forward, std::uint64_t seed) {
 }
 
 double log_uniform(const Bounds& bounds, double quantile) {
-    return bounds.low * exact::pow(bounds.high / bounds.low, quantile);
+    return bounds.low * std::pow(bounds.high / bounds.low, quantile);
 }
 
 RoadRecipe with_rule(RoadRecipe road, const RoadRule& rule, const LaneDraws& draws) {

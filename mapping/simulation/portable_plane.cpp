@@ -1,7 +1,6 @@
 #include "mapping/simulation/portable_plane.hpp"
 
 #include "estimator/common/angle.hpp"
-#include "estimator/simulation/portable_math.hpp"
 
 #include <cmath>
 
@@ -16,8 +15,8 @@ constexpr double eccentricity_squared = flattening * (2 - flattening);
 } // namespace
 
 ExactPlane::ExactPlane(const GeoPoint& origin) : origin_{origin} {
-    const double sine = exact::sin(origin.lat_deg * rad_per_deg);
-    const double cosine = exact::cos(origin.lat_deg * rad_per_deg);
+    const double sine = std::sin(origin.lat_deg * rad_per_deg);
+    const double cosine = std::cos(origin.lat_deg * rad_per_deg);
     const double w = 1 - eccentricity_squared * sine * sine;
     const double n = equator_radius_m / std::sqrt(w);    // Snyder eq. 4-20
     const double m = n * (1 - eccentricity_squared) / w; // Snyder eq. 4-19

@@ -6,7 +6,7 @@ namespace macadam {
 
 /// A plane around a position, x east, y north, from the ellipsoid's radii at that position and the
 /// first-order change of the length of a degree of longitude northwards. Accurate to 1e-6 within 5
-/// km. Independent of the C library, so identical on every machine to the last bit.
+/// km.
 class ExactPlane {
 public:
     explicit ExactPlane(const GeoPoint& origin);

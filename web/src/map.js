@@ -1,6 +1,5 @@
 // The map: measured roads by class, confidence or change, picked by click, touch or keyboard.
-import * as maplibre from 'maplibre-gl';
-import { Protocol } from 'pmtiles';
+import { firstPadding, paddingIn, roomy } from './first_picture.js';
 import { confidenceLimits, isWide, mapFilter } from './filter.js';
 import { el } from './dom.js';
 import { choose, state } from './state.js';
@@ -109,25 +108,16 @@ function pick(map, point, by) {
   return [...nearest.values()].sort((a, b) => a.metres - b.metres).map(({ properties }) => properties);
 }
 
-// Bounds that are not flat, as those of a straight road are.
-function roomy([west, south, east, north]) {
-  const [lon, lat, least] = [(west + east) / 2, (south + north) / 2, 0.001]; // degrees
-  return [[Math.min(west, lon - least), Math.min(south, lat - least)], [Math.max(east, lon + least), Math.max(north, lat + least)]];
-}
-
-export function openMap(container, data, covered, tell) {
+// The libraries come after the first picture.
+export async function openMap(container, data, covered, tell) {
+  const [maplibre, { Protocol }] = await Promise.all([import('maplibre-gl'), import('pmtiles')]);
   const { site } = data;
   maplibre.addProtocol('pmtiles', new Protocol().tile);
-  // Room around what is shown, less where the map is small: more than its size would leave the map where it is.
-  const padding = (most) => {
-    const edge = Math.min(most, container.clientWidth / 8, container.clientHeight / 8);
-    const { right, bottom } = covered();
-    return { top: edge, left: edge, right: edge + right, bottom: edge + bottom };
-  };
+  const padding = (most) => paddingIn(container, covered(), most);
   const [zoom, latitude, longitude] = state.map.split('/').map(Number);
   const map = new maplibre.Map({
     container, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
-    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: roomy(site.bounds), fitBoundsOptions: { padding: padding(30) } }),
+    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: roomy(site.bounds), fitBoundsOptions: { padding: padding(firstPadding) } }),
   });
   map.touchZoomRotate.disableRotation();
   map.addControl(new maplibre.NavigationControl({ showCompass: false }), 'top-right');

@@ -2,6 +2,7 @@
 import { onBusy, openSite, parseId } from './data.js';
 import { choice, neighbour, runDetail, segmentDetail } from './drawer.js';
 import { el, option, replace } from './dom.js';
+import { showFirstPicture } from './first_picture.js';
 import { openMap } from './map.js';
 import { openPanel } from './panel.js';
 import { openRouting } from './routing.js';
@@ -244,16 +245,18 @@ function showView() {
 }
 
 // The map, or nothing where WebGL 2 is missing.
-function mapOn(place) {
+async function mapOn(place) {
+  const takeAway = showFirstPicture(place, data.site, covered());
   try {
-    return openMap(place, data, covered, {
+    return await openMap(place, data, covered, {
       picked,
       failed: (error) => failure(error, () => location.reload()),
-      idle: showView,
+      idle: () => { takeAway(); showView(); },
       compared: (counts) => panel?.compared(counts),
     });
   } catch (error) {
     console.info(String(error));
+    takeAway();
     return undefined;
   }
 }
@@ -283,7 +286,8 @@ async function draw() {
   panelPlace.addEventListener('focusin', () => { if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet('half'); });
   onBusy((isBusy) => { bar.hidden = !isBusy; });
   panel = undefined;
-  map = mapOn(mapPlace);
+  map = undefined;
+  map = await mapOn(mapPlace);
   const act = {
     hasMap: Boolean(map), openWorst, openFeature: (feature) => (feature.segment ? openSegment(feature.segment) : showDrawer(runDetail(feature, { zoomIn: () => map.fit(data.site.bounds, 15) }), true)),
     toData, toggleRoute: () => routing.toggle(), failed: (error) => failure(error, clearNotice), pointAt: (section) => map?.markPointed(section ? [section.line] : []),

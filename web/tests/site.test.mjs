@@ -431,6 +431,37 @@ describe('the page', { timeout: 380_000 }, () => {
     await close();
   });
 
+  test('shows all roads as a picture where the map will draw them, until it has', async () => {
+    let release;
+    const held = new Promise((resolve) => { release = resolve; });
+    const opened = await town.page('', { ready: false, before: (page) => page.route('**/maplibre-gl.mjs', async (route) => { await held; await route.continue(); }) });
+    await opened.page.waitForFunction(() => document.querySelector('img.first-picture')?.naturalWidth > 0);
+    const { image, map, bounds } = await opened.page.evaluate(async () => {
+      const box = (query) => { const { left, top, width, height } = document.querySelector(query).getBoundingClientRect(); return { left, top, width, height }; };
+      return { image: box('img.first-picture'), map: box('#map'), bounds: (await (await fetch('site.json')).json()).first_picture };
+    });
+    release();
+    await opened.page.waitForSelector('#map[data-ready]');
+    assert.equal(await opened.page.locator('img.first-picture').count(), 0);
+    // The map tells its view when it has moved: there and back.
+    await opened.page.locator('#map canvas').focus();
+    await opened.page.keyboard.press('=');
+    await opened.page.waitForFunction(() => location.hash.includes('map='));
+    const nearer = await opened.page.evaluate(() => location.hash);
+    await opened.page.keyboard.press('-');
+    await opened.page.waitForFunction((before) => location.hash !== before, nearer);
+    const [zoom, lat, lon] = (await opened.page.evaluate(() => location.hash)).match(/map=([^&]*)/)?.[1].split('/').map(Number) ?? [];
+    const world = 512 * 2 ** zoom;
+    const y = (deg) => 0.5 - Math.log(Math.tan(Math.PI / 4 + deg * Math.PI / 360)) / (2 * Math.PI);
+    const at = ([east, north]) => [map.left + map.width / 2 + world * (east - lon) / 360, map.top + map.height / 2 + world * (y(north) - y(lat))];
+    const [left, top] = at([bounds[0], bounds[3]]);
+    const [right, bottom] = at([bounds[2], bounds[1]]);
+    for (const [seen, expected] of [[image.left, left], [image.top, top], [image.left + image.width, right], [image.top + image.height, bottom]]) {
+      assert.ok(Math.abs(seen - expected) < 4, `${seen} px, expected ${expected} px`); // zoom is told to 0.01: 0.7 %
+    }
+    await opened.close();
+  });
+
   test('has all values in lists without WebGL', async () => {
     const opened = await town.page('', { ready: false, before: (page) => page.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; }) });
     await opened.page.waitForSelector('#road-table tbody tr');

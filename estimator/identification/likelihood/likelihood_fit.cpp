@@ -1,7 +1,7 @@
 #include "estimator/identification/likelihood/likelihood_fit.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/identification/likelihood/station_shift.hpp"
+#include "estimator/identification/likelihood/likelihood_problem.hpp"
 #include "estimator/identification/likelihood/whitening.hpp"
 
 #include <Eigen/Cholesky>
@@ -10,9 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -20,14 +17,7 @@ namespace macadam {
 namespace {
 
 constexpr double min_duration_s = 10; // twenty periods of 0.5 Hz, the whitening's resolution
-constexpr double taper_s = 1;
-// Steps of finite differences, of a parameter and of the stations. They are small, since a common
-// scale of masses, springs, dampers and friction must leave the readings exactly as they are.
-constexpr double difference = 1e-4;
-constexpr double shift_difference_m = 1e-3;
-constexpr double shift_rise_sd_m = 0.5; // from knot to knot: 1 % of the travel
-constexpr double shift_sd_m = 3;        // of the first knot
-constexpr double max_step_sd = 1.5;     // of a parameter, in its prior's standard deviations
+constexpr double max_step_sd = 1.5;   // of a parameter, in its prior's standard deviations
 constexpr double max_shift_step_m = 0.4;
 constexpr double block_s = 5; // residuals of two blocks are independent
 constexpr std::size_t min_blocks = 10;
@@ -39,141 +29,6 @@ constexpr double unexcited_above = 2.0 / 3;
 // half a metre wrong.
 constexpr double first_bands_hz[] = {4, 4, 8, 8};
 
-/// Readings of all channels as columns, without the run-in and tapered at both ends.
-class Window {
-public:
-    Window(const ProfileDrive& drive, double run_in_s) {
-        first_ = static_cast<Eigen::Index>(std::ceil(run_in_s / drive.step_s));
-        const auto samples = static_cast<Eigen::Index>(drive.station_m.size()) - first_;
-        rows_ = samples - samples % 64; // the Fourier transform of large primes is slow
-        taper_ = Eigen::VectorXd::Ones(rows_);
-        const auto ramp = static_cast<Eigen::Index>(taper_s / drive.step_s);
-        for (Eigen::Index i = 0; i < ramp; ++i) {
-            const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(ramp);
-            taper_[i] = taper_[rows_ - 1 - i] = (1 - std::cos(std::numbers::pi * part)) / 2;
-        }
-        for (std::size_t channel = 0; channel < channel_count; ++channel) {
-            if (!drive.felt[channel].empty()) {
-                channels_.push_back(channel);
-            }
-        }
-    }
-
-    Eigen::MatrixXd operator()(const Readings& readings) const {
-        Eigen::MatrixXd out(rows_, static_cast<Eigen::Index>(channels_.size()));
-        for (std::size_t i = 0; i < channels_.size(); ++i) {
-            const auto& values = readings[channels_[i]];
-            out.col(static_cast<Eigen::Index>(i)) =
-                Eigen::Map<const Eigen::VectorXd>{values.data() + first_, rows_};
-        }
-        out.rowwise() -= out.colwise().mean();
-        return taper_.asDiagonal() * out;
-    }
-
-    Eigen::Index rows() const { return rows_; }
-    std::size_t first() const { return static_cast<std::size_t>(first_); }
-    const std::vector<std::size_t>& channels() const { return channels_; }
-
-private:
-    Eigen::Index first_, rows_;
-    Eigen::VectorXd taper_;
-    std::vector<std::size_t> channels_;
-};
-
-/// Drive, the parameters of its car, and the corrections of its stations behind them.
-class Problem {
-public:
-    Problem(const ProfileDrive& drive, const Vehicle& vehicle, const LikelihoodFitConfig& config)
-        : drive_{drive}, expected_{expected_car(vehicle)},
-          parameters_{parameters_of(vehicle, !drive.felt[1].empty() || !drive.felt[2].empty())},
-          knots_{knots_along(drive.station_m)}, window_{drive, config.run_in_s}, measured_{window_(
-                                                                                     drive.felt)} {
-        const auto cars = static_cast<Eigen::Index>(parameters_.size());
-        prior_ = Eigen::MatrixXd::Zero(size(), size());
-        for (Eigen::Index i = 0; i < cars; ++i) {
-            prior_(i, i) = std::pow(parameters_[static_cast<std::size_t>(i)].prior_sd, -2);
-        }
-        prior_(cars, cars) = std::pow(shift_sd_m, -2);
-        const double rise = std::pow(shift_rise_sd_m, -2);
-        for (Eigen::Index i = cars; i + 1 < size(); ++i) {
-            prior_(i, i) += rise;
-            prior_(i + 1, i + 1) += rise;
-            prior_(i, i + 1) -= rise;
-            prior_(i + 1, i) -= rise;
-        }
-    }
-
-    Eigen::Index size() const {
-        return static_cast<Eigen::Index>(parameters_.size() + knots_.count);
-    }
-    const std::vector<CarParameter>& parameters() const { return parameters_; }
-    const FittedCar& expected() const { return expected_; }
-    const Eigen::MatrixXd& prior() const { return prior_; }
-    const Eigen::MatrixXd& measured() const { return measured_; }
-    const Window& window() const { return window_; }
-    double step_s() const { return drive_.step_s; }
-
-    FittedCar car(const Eigen::VectorXd& by) const { return moved(expected_, parameters_, by); }
-
-    std::span<const double> shifts(const Eigen::VectorXd& by) const {
-        return {by.data() + parameters_.size(), knots_.count};
-    }
-
-    /// Returns the start: the expected car, at stations that match the measured readings.
-    Eigen::VectorXd start() const {
-        Eigen::VectorXd by = Eigen::VectorXd::Zero(size());
-        const auto modelled = readings(by, 0);
-        const auto shift_m =
-            correlated_shifts(knots_, drive_.station_m, drive_.felt[0], modelled[0], drive_.step_s);
-        std::ranges::copy(shift_m, by.data() + parameters_.size());
-        return by;
-    }
-
-    Eigen::MatrixXd modelled(const Eigen::VectorXd& by) const { return window_(readings(by, 0)); }
-
-    using TakeSlope = std::function<void(Eigen::Index unknown, const Eigen::MatrixXd& slope)>;
-
-    /// Passes on the derivative of the modelled readings by each unknown, one at a time, so that
-    /// only the whitened ones are kept: all together take hundreds of megabytes. The derivative by
-    /// a knot is the one by a shift of the whole drive, times the share of the knot: a car forgets
-    /// within a fraction of the distance between knots.
-    void
-    slopes(const Eigen::VectorXd& by, const Eigen::MatrixXd& here, const TakeSlope& take) const {
-        for (std::size_t i = 0; i < parameters_.size(); ++i) {
-            Eigen::VectorXd beside = by;
-            const auto unknown = static_cast<Eigen::Index>(i);
-            beside[unknown] += difference;
-            take(unknown, (modelled(beside) - here) / difference);
-        }
-        const Eigen::MatrixXd shifted =
-            (window_(readings(by, shift_difference_m)) - here) / shift_difference_m;
-        for (std::size_t knot = 0; knot < knots_.count; ++knot) {
-            Eigen::VectorXd share(window_.rows());
-            for (Eigen::Index k = 0; k < share.size(); ++k) {
-                share[k] = share_of(
-                    knots_, knot, drive_.station_m[window_.first() + static_cast<std::size_t>(k)]);
-            }
-            take(static_cast<Eigen::Index>(parameters_.size() + knot),
-                 share.asDiagonal() * shifted);
-        }
-    }
-
-private:
-    Readings readings(const Eigen::VectorXd& by, double further_m) const {
-        auto shift_m = shifts_at(knots_, shifts(by), drive_.station_m);
-        std::ranges::for_each(shift_m, [=](double& shift) { shift += further_m; });
-        return simulated_readings(drive_, car(by), expected_.vehicle.gain, shift_m);
-    }
-
-    const ProfileDrive& drive_;
-    FittedCar expected_;
-    std::vector<CarParameter> parameters_;
-    ShiftKnots knots_;
-    Window window_;
-    Eigen::MatrixXd measured_;
-    Eigen::MatrixXd prior_;
-};
-
 /// Whitened residuals and their derivatives, all channels in one column.
 struct Linearised {
     Eigen::MatrixXd residual; ///< not whitened
@@ -181,7 +36,8 @@ struct Linearised {
     Eigen::MatrixXd slopes; ///< of the modelled readings, whitened
 };
 
-Linearised linearised(const Problem& problem, const Eigen::VectorXd& by, FrequencyBand band) {
+Linearised
+linearised(const LikelihoodProblem& problem, const Eigen::VectorXd& by, FrequencyBand band) {
     const auto here = problem.modelled(by);
     Linearised local{.residual = problem.measured() - here, .white = {}, .slopes = {}};
     const Whitening whitening{local.residual, problem.step_s(), band};
@@ -194,7 +50,7 @@ Linearised linearised(const Problem& problem, const Eigen::VectorXd& by, Frequen
 }
 
 /// Limits a step to some prior standard deviations and some decimetres.
-Eigen::VectorXd limited(Eigen::VectorXd step, const Problem& problem) {
+Eigen::VectorXd limited(Eigen::VectorXd step, const LikelihoodProblem& problem) {
     const auto& parameters = problem.parameters();
     double most = 1;
     for (Eigen::Index i = 0; i < step.size(); ++i) {
@@ -206,7 +62,7 @@ Eigen::VectorXd limited(Eigen::VectorXd step, const Problem& problem) {
     return step / most;
 }
 
-double last_frequency_hz(const Problem& problem, const LikelihoodFitConfig& config) {
+double last_frequency_hz(const LikelihoodProblem& problem, const LikelihoodFitConfig& config) {
     return std::min(config.to_hz, 0.45 / problem.step_s());
 }
 
@@ -219,7 +75,7 @@ struct Peak {
 };
 
 /// Returns the sum over blocks of time of the squared gradient of the log-likelihood.
-Eigen::MatrixXd score_squares(const Problem& problem, const Linearised& local) {
+Eigen::MatrixXd score_squares(const LikelihoodProblem& problem, const Linearised& local) {
     const auto rows = problem.window().rows();
     const auto block = static_cast<Eigen::Index>(block_s / problem.step_s());
     Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(problem.size(), problem.size());
@@ -237,7 +93,7 @@ Eigen::MatrixXd score_squares(const Problem& problem, const Linearised& local) {
 
 /// Returns the inverse information, widened to the sandwich's standard deviations and by the model
 /// error.
-Eigen::MatrixXd covariance_of(const Problem& problem, const Linearised& local) {
+Eigen::MatrixXd covariance_of(const LikelihoodProblem& problem, const Linearised& local) {
     const Eigen::MatrixXd inverse =
         (local.slopes.transpose() * local.slopes + problem.prior()).inverse();
     Eigen::MatrixXd covariance = inverse;
@@ -271,7 +127,7 @@ Eigen::VectorXd newton_step(const Eigen::MatrixXd& information, const Eigen::Vec
 
 /// Tests whether a step moves no parameter of the car by a notable part of its standard deviation.
 /// The stations are left aside: smooth roads leave them open, without harm to the car.
-bool is_settled(const Problem& problem,
+bool is_settled(const LikelihoodProblem& problem,
                 const Eigen::VectorXd& step,
                 const Eigen::MatrixXd& information) {
     const auto cars = static_cast<Eigen::Index>(problem.parameters().size());
@@ -279,7 +135,7 @@ bool is_settled(const Problem& problem,
     return (step.head(cars).cwiseAbs().array() < settled_step * sd.array()).all();
 }
 
-Peak peak_of(const Problem& problem, const LikelihoodFitConfig& config) {
+Peak peak_of(const LikelihoodProblem& problem, const LikelihoodFitConfig& config) {
     Eigen::VectorXd by = problem.start();
     const double last_hz = last_frequency_hz(problem, config);
     for (int iteration = 0;; ++iteration) {
@@ -303,7 +159,7 @@ Peak peak_of(const Problem& problem, const LikelihoodFitConfig& config) {
 }
 
 std::vector<FittedParameter>
-parameters_in(const Problem& problem, const Peak& peak, std::vector<Eigen::Index>& rows) {
+parameters_in(const LikelihoodProblem& problem, const Peak& peak, std::vector<Eigen::Index>& rows) {
     auto start = problem.expected();
     auto found = problem.car(peak.by);
     const auto& parameters = problem.parameters();
@@ -350,7 +206,7 @@ double norm_of(const AmplitudeSpectrum& spectrum) {
 }
 
 std::vector<ChannelFit>
-spectra_of(const Problem& problem, const Peak& peak, const LikelihoodFitConfig& config) {
+spectra_of(const LikelihoodProblem& problem, const Peak& peak, const LikelihoodFitConfig& config) {
     const Band band{.from_hz = config.from_hz,
                     .to_hz = last_frequency_hz(problem, config),
                     .smoothing_hz = 0.5};
@@ -419,7 +275,7 @@ LikelihoodFit fit_likelihood(const ProfileDrive& drive,
                              const Vehicle& vehicle,
                              const LikelihoodFitConfig& config) {
     check(drive, config);
-    const Problem problem{drive, vehicle, config};
+    const LikelihoodProblem problem{drive, vehicle, config};
     const auto peak = peak_of(problem, config);
     std::vector<Eigen::Index> rows;
     auto parameters = parameters_in(problem, peak, rows);
