@@ -15,9 +15,10 @@
 namespace macadam {
 namespace {
 
-constexpr int width_px = 1200, height_px = 900; // sharp in a browser's window, some 200 kB
-constexpr double min_side_deg = 0.002;          // of the first picture, of longitude
-constexpr double max_shape = 3;                 // of the first picture, long to short side
+constexpr int width_px = 1200, height_px = 900;            // sharp in a browser's window
+constexpr int first_width_px = 640, first_height_px = 480; // soon there: at most half a megabyte
+constexpr double min_side_deg = 0.002;                     // of the first picture, of longitude
+constexpr double max_shape = 3; // of the first picture, long to short side
 
 /// Draws a picture, or says why not.
 bool is_drawn(const Progress& progress, const Console& console, const std::function<void()>& draw) {
@@ -75,7 +76,7 @@ std::optional<GeoBox> write_first_pictures(const StoreReader& store,
                                            const GeoBox& bounds,
                                            bool left_hand,
                                            const Console& console) {
-    MapRequest request{.filter = filter, .width_px = width_px, .height_px = height_px};
+    MapRequest request{.filter = filter, .width_px = first_width_px, .height_px = first_height_px};
     request.filter.box = picture_box(bounds);
     request.style.classes = class_table(store.settings().class_table);
     request.style.left_hand_traffic = left_hand;
@@ -85,8 +86,8 @@ std::optional<GeoBox> write_first_pictures(const StoreReader& store,
         request.style.theme = theme;
         request.style.colours.ground = ground;
         const PictureOutput output{.file = folder / name,
-                                   .width_px = width_px,
-                                   .height_px = height_px,
+                                   .width_px = first_width_px,
+                                   .height_px = first_height_px,
                                    .bare = true,
                                    .crs = {}};
         write_picture(load_map(store, request), output, "", progress, [] {});

@@ -51,7 +51,7 @@ async function open(server, hash = '') {
   await page.addInitScript(() => {
     new MutationObserver(() => { if (globalThis.drawnMs === undefined && document.querySelector('#map[data-ready]')) globalThis.drawnMs = performance.now(); })
       .observe(document, { subtree: true, childList: true, attributes: true });
-    addEventListener('load', ({ target }) => { if (target.className === 'first-picture') requestAnimationFrame(() => { globalThis.pictureMs = performance.now(); }); }, { capture: true });
+    document.addEventListener('load', ({ target }) => { if (target.className === 'first-picture') requestAnimationFrame(() => { globalThis.pictureMs = performance.now(); }); }, { capture: true });
   });
   const session = await page.context().newCDPSession(page);
   if (!hash) await session.send('Emulation.setCPUThrottlingRate', { rate: slowed });
