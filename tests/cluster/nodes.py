@@ -1,0 +1,411 @@
+"""Three servers on one machine: each runs etcd, Patroni and PostgreSQL 15 or newer as an ordinary user.
+
+In a test each server has a network namespace behind a bridge and a small disk (tmpfs) of its own, so
+that cables can be cut and disks be filled; elsewhere it has an address of the loopback device.
+"""
+
+import json
+import os
+import pathlib
+import secrets
+import shutil
+import signal
+import subprocess
+import threading
+import time
+import urllib.request
+
+import psycopg2
+import yaml
+
+NAMES = ("n1", "n2", "n3")
+DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
+TTL_S = 20  # the shortest that Patroni's manual allows
+DISK_MIB = 700
+ROLES = ("postgres", "replicator", "rewinder", "patroni", "macadam")
+
+
+def programs():
+    """Folder of the newest PostgreSQL that Debian installed."""
+    found = sorted(pathlib.Path("/usr/lib/postgresql").glob("*/bin/postgres"), key=lambda file: int(file.parts[4]))
+    if not found:
+        raise SystemExit("cluster: no PostgreSQL below /usr/lib/postgresql; ./run cluster installs it")
+    return found[-1].parent
+
+
+def pid_in(file):
+    """First number in a file of a process; None if there is none."""
+    try:
+        return int(file.read_text().split()[0])
+    except (OSError, ValueError, IndexError):
+        return None
+
+
+def is_alive(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def tree(roots):
+    """Processes and all that they started."""
+    children = {}
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parent = int(stat.read_text().rpartition(")")[2].split()[1])
+        except OSError:
+            continue
+        children.setdefault(parent, []).append(int(stat.parent.name))
+    found, waiting = [], [pid for pid in roots if pid and is_alive(pid)]
+    while waiting:
+        pid = waiting.pop()
+        if pid not in found:
+            found.append(pid)
+            waiting += children.get(pid, [])
+    return found
+
+
+def send(pids, number):
+    for pid in pids:
+        try:
+            os.kill(pid, number)
+        except ProcessLookupError:
+            pass
+
+
+def leave_init_behind():
+    """As the first process of a namespace, goes on in a child, and here awaits what others leave behind: Patroni takes
+    a dead PostgreSQL that nobody waits for to be alive."""
+    if os.getpid() != 1:
+        return
+    child = os.fork()
+    if child == 0:
+        return
+    signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))
+    while True:
+        pid, status = os.wait()
+        if pid == child:
+            os._exit(os.waitstatus_to_exitcode(status) & 0xFF)
+
+
+class Node:
+    """One server. etcd and Patroni are started again 2 s after they ended, as systemd does."""
+
+    def __init__(self, cluster, number):
+        self.cluster = cluster
+        self.name = NAMES[number]
+        self.address = f"10.77.0.{number + 1}" if cluster.isolated else f"127.0.77.{number + 1}"
+        self.folder = cluster.folder / self.name
+        self.data = self.folder / "disk" / "data"
+        self.link = f"port{number + 1}"
+        self.holder = None  # process that keeps the network namespace
+        self.running = {}  # program: its process
+        self.ended_at = {}
+        self.off = set()  # programs that are not started again
+
+    def prepare(self):
+        (self.folder / "disk").mkdir(parents=True, exist_ok=True)
+        (self.folder / "etcd").mkdir(mode=0o700, exist_ok=True)
+        if self.cluster.isolated:
+            for disk, mib in (("disk", DISK_MIB), ("etcd", 200)):
+                run("mount", "-t", "tmpfs", "-o", f"size={mib}m,mode=0700", "tmpfs", str(self.folder / disk))
+            self.holder = subprocess.Popen(["unshare", "-n", "sleep", "infinity"])
+            while os.readlink(f"/proc/{self.holder.pid}/ns/net") == os.readlink("/proc/self/ns/net"):
+                time.sleep(0.01)
+            inside = ["nsenter", "-t", str(self.holder.pid), "-n", "ip"]
+            run("ip", "link", "add", self.link, "type", "veth", "peer", "name", "eth0", "netns", str(self.holder.pid))
+            run("ip", "link", "set", self.link, "master", "bridge", "up")
+            run(*inside, "link", "set", "lo", "up")
+            run(*inside, "addr", "add", f"{self.address}/24", "dev", "eth0")
+            run(*inside, "link", "set", "eth0", "up")
+        (self.folder / "patroni.yml").write_text(yaml.safe_dump(self.settings(), sort_keys=False))
+        (self.folder / "patroni.yml").chmod(0o600)
+
+    def settings(self):
+        """Patroni's configuration: docs/cluster.md explains it."""
+        passwords = self.cluster.passwords
+        hosts = [node.address for node in self.cluster.nodes]
+        network = "10.77.0.0/24" if self.cluster.isolated else "127.0.0.0/8"
+        return {
+            "scope": "macadam",
+            "name": self.name,
+            "restapi": {
+                "listen": f"{self.address}:{REST_PORT}",
+                "connect_address": f"{self.address}:{REST_PORT}",
+                "authentication": {"username": "patroni", "password": passwords["patroni"]},
+            },
+            "ctl": {"authentication": {"username": "patroni", "password": passwords["patroni"]}},
+            "etcd3": {"hosts": [f"{host}:{ETCD_PORT}" for host in hosts]},
+            "bootstrap": {
+                "dcs": {
+                    "ttl": TTL_S,
+                    "loop_wait": 2,
+                    "retry_timeout": 4,
+                    "primary_start_timeout": 5,
+                    "synchronous_mode": True,
+                    "synchronous_mode_strict": True,
+                    "failsafe_mode": True,
+                    "postgresql": {
+                        "use_pg_rewind": True,
+                        "use_slots": True,
+                        "parameters": {
+                            "max_connections": 60,
+                            "wal_level": "replica",
+                            "wal_log_hints": True,
+                            "max_wal_size": "128MB",
+                            "wal_keep_size": "64MB",
+                            "max_slot_wal_keep_size": "256MB",
+                            "wal_sender_timeout": "5s",
+                            "wal_receiver_timeout": "5s",
+                        },
+                    },
+                },
+                "initdb": ["data-checksums", {"encoding": "UTF8"}, {"locale": "C.UTF-8"}],
+            },
+            "postgresql": {
+                "listen": f"{self.address}:{DATABASE_PORT}",
+                "connect_address": f"{self.address}:{DATABASE_PORT}",
+                "bin_dir": str(programs()),
+                "data_dir": str(self.data),
+                "pgpass": str(self.folder / "pgpass"),
+                "authentication": {
+                    "superuser": {"username": "postgres", "password": passwords["postgres"]},
+                    "replication": {"username": "replicator", "password": passwords["replicator"]},
+                    "rewind": {"username": "rewinder", "password": passwords["rewinder"]},
+                },
+                "parameters": {
+                    "unix_socket_directories": "",
+                    "password_encryption": "scram-sha-256",
+                    "shared_buffers": "48MB",
+                    "jit": False,
+                    "tcp_user_timeout": "5s",
+                    "tcp_keepalives_idle": 5,
+                    "tcp_keepalives_interval": 2,
+                    "tcp_keepalives_count": 3,
+                },
+                "pg_hba": [
+                    f"host all all {network} scram-sha-256",
+                    f"host replication replicator {network} scram-sha-256",
+                ],
+            },
+        }
+
+    def commands(self):
+        members = ",".join(f"{node.name}=http://{node.address}:{PEER_PORT}" for node in self.cluster.nodes)
+        here, peer = f"http://{self.address}:{ETCD_PORT}", f"http://{self.address}:{PEER_PORT}"
+        return {
+            "etcd": ["etcd", "--name", self.name, "--data-dir", str(self.folder / "etcd" / "data"),
+                     "--listen-client-urls", here, "--advertise-client-urls", here,
+                     "--listen-peer-urls", peer, "--initial-advertise-peer-urls", peer,
+                     "--initial-cluster", members, "--initial-cluster-token", "macadam",
+                     "--heartbeat-interval", "200", "--election-timeout", "2000", "--logger", "zap"],
+            "patroni": ["patroni", str(self.folder / "patroni.yml")],
+        }
+
+    def as_user(self, command):
+        """PostgreSQL refuses to run as root, even as the root of a namespace."""
+        if not self.cluster.isolated and os.geteuid() != 0:
+            return command
+        command = ["unshare", "-U", "--map-user=1000", "--map-group=1000", "--", *command]
+        return ["nsenter", "-t", str(self.holder.pid), "-n", "--", *command] if self.holder else command
+
+    def start(self, program):
+        with (self.folder / f"{program}.log").open("ab") as log:
+            self.running[program] = subprocess.Popen(
+                self.as_user(self.commands()[program]), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                cwd=self.folder, env={"PATH": f"{programs()}:/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8",
+                                      "HOME": str(self.folder)})
+
+    def supervise(self):
+        for program in set(self.commands()) - self.off:
+            process = self.running.get(program)
+            if process is not None and process.poll() is None:
+                continue
+            ended_at = self.ended_at.setdefault(program, time.monotonic())
+            if process is None or time.monotonic() - ended_at > 2:
+                self.ended_at.pop(program)
+                self.start(program)
+
+    def postmaster(self):
+        return pid_in(self.data / "postmaster.pid")
+
+    def pids(self, *which):
+        """Processes of etcd, patroni or postgres, all of them without a name."""
+        roots = [self.running[name].pid for name in ("etcd", "patroni") if name in self.running and (not which or name in which)]
+        if not which or "postgres" in which:
+            roots.append(self.postmaster())
+        return tree(roots)
+
+    def cable(self, is_in):
+        run("ip", "link", "set", self.link, "up" if is_in else "down")
+
+    def hide_from(self, others, hidden):
+        """Loses all packets between this server and others, without a word to either; clients still reach both."""
+        for one, other in [(self, other) for other in others] + [(other, self) for other in others]:
+            words = ["nsenter", "-t", str(one.holder.pid), "-n", "ip", "neigh"]
+            if hidden:
+                run(*words, "replace", other.address, "lladdr", "02:00:00:00:00:99", "nud", "permanent", "dev", "eth0")
+            else:
+                run(*words, "del", other.address, "dev", "eth0")
+
+
+def run(*command, check=True, **options):
+    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    if check and done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)}: exit {done.returncode}: {done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return done.stdout
+
+
+class Cluster:
+    """The three servers, and a thread that starts again what ended."""
+
+    def __init__(self, folder, isolated):
+        self.folder = pathlib.Path(folder)
+        self.isolated = isolated
+        self.synchronous = True
+        self.passwords = {role: secrets.token_hex(16) for role in ROLES}
+        self.nodes = [Node(self, number) for number in range(len(NAMES))]
+        self.is_stopping = threading.Event()
+        self.supervisor = threading.Thread(target=self._supervise, daemon=True)
+
+    def hosts(self):
+        return ",".join(node.address for node in self.nodes)
+
+    def address(self, database, role="macadam"):
+        """libpq finds the primary among the three by itself."""
+        hosts = ",".join(f"{node.address}:{DATABASE_PORT}" for node in self.nodes)
+        return (f"postgresql://{role}@{hosts}/{database}?target_session_attrs=read-write"
+                "&connect_timeout=3&tcp_user_timeout=5000")
+
+    def connect(self, database, role="macadam", node=None, **options):
+        """Connects to the primary, or to one server."""
+        return psycopg2.connect(
+            host=node.address if node else self.hosts(), port=DATABASE_PORT, dbname=database, user=role,
+            password=self.passwords[role], connect_timeout=3, tcp_user_timeout=5000,
+            target_session_attrs="any" if node else "read-write", **options)
+
+    def start(self, deadline_s=120):
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True, mode=0o700)
+        if self.isolated:
+            run("ip", "link", "set", "lo", "up")
+            run("ip", "link", "add", "bridge", "type", "bridge", "forward_delay", "0")
+            run("ip", "addr", "add", "10.77.0.254/24", "dev", "bridge")
+            run("ip", "link", "set", "bridge", "up")
+        for node in self.nodes:
+            node.prepare()
+        pgpass = self.folder / "pgpass"
+        pgpass.write_text("".join(f"*:*:*:{role}:{word}\n" for role, word in self.passwords.items()))
+        pgpass.chmod(0o600)
+        self.supervisor.start()
+        self.wait_until_whole(deadline_s)
+
+    def _supervise(self):
+        while not self.is_stopping.wait(0.5):
+            for node in self.nodes:
+                node.supervise()
+
+    def stop(self):
+        self.is_stopping.set()
+        if self.supervisor.is_alive():
+            self.supervisor.join()
+        for program in ("patroni", "etcd"):
+            processes = [node.running[program] for node in self.nodes if program in node.running]
+            for process in processes:
+                process.terminate()
+            for process in processes:
+                try:
+                    process.wait(20)
+                except subprocess.TimeoutExpired:
+                    pass
+        for node in self.nodes:
+            send(node.pids(), signal.SIGKILL)
+            node.holder and node.holder.kill()
+
+    def primary(self):
+        """The server that takes writes; None at the moment."""
+        for node in self.nodes:
+            try:
+                connection = self.connect("postgres", "postgres", node)
+            except psycopg2.Error:
+                continue
+            try:
+                with connection.cursor() as cursor:
+                    cursor.execute("SET statement_timeout = '3s'; SELECT pg_is_in_recovery()")
+                    if not cursor.fetchone()[0]:
+                        return node
+            except psycopg2.Error:
+                continue
+            finally:
+                connection.close()
+        return None
+
+    def members(self):
+        """Members by name, as Patroni sees them: {role, state, timeline, lag, ...}; empty if it does not answer."""
+        for node in self.nodes:
+            try:
+                with urllib.request.urlopen(f"http://{node.address}:{REST_PORT}/cluster", timeout=2) as answer:
+                    return {member["name"]: member for member in json.load(answer)["members"]}
+            except (OSError, ValueError, KeyError):
+                continue
+        return {}
+
+    def standbys(self):
+        """Names of the standbys that run, and of those of them that commits wait for."""
+        running = {name: member["role"] for name, member in self.members().items()
+                   if member["role"] != "leader" and member["state"] in ("running", "streaming")}
+        return list(running), [name for name, role in running.items() if role == "sync_standby"]
+
+    def wait_until_whole(self, deadline_s):
+        """Waits until both standbys stream and one of them is waited for. Returns the seconds."""
+        began = time.monotonic()
+        while True:
+            try:
+                running, waited_for = self.standbys()
+                if len(running) == 2 and (waited_for or not self.synchronous) and self.primary():
+                    return time.monotonic() - began
+            except psycopg2.Error:
+                pass
+            if time.monotonic() - began > deadline_s:
+                raise RuntimeError(f"the cluster is not whole after {deadline_s} s:\n{self.list()}\n"
+                                   f"its logs are below {self.folder}")
+            time.sleep(0.5)
+
+    def become_asynchronous(self):
+        self.control("edit-config", "--force", "-s", "synchronous_mode=false", "-s", "synchronous_mode_strict=false",
+                     check=True)
+        self.synchronous = False
+        while self.standbys()[1]:
+            time.sleep(0.5)
+
+    def control(self, *words, check=False):
+        """Runs patronictl."""
+        node = self.nodes[0]
+        return run("patronictl", "-c", str(node.folder / "patroni.yml"), *words, check=check, timeout=60,
+                   env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8", "HOME": str(self.folder)})
+
+    def list(self):
+        return self.control("list")
+
+    def new_database(self, name):
+        """Creates a database with PostGIS that role macadam owns."""
+        connection = self.connect("postgres", "postgres")
+        connection.autocommit = True
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT 1 FROM pg_roles WHERE rolname = 'macadam'")
+            if not cursor.fetchone():
+                cursor.execute("CREATE ROLE macadam LOGIN PASSWORD %s", (self.passwords["macadam"],))
+            cursor.execute(f"CREATE DATABASE {name} OWNER macadam")
+        connection.close()
+        while True:
+            try:
+                connection = self.connect(name, "postgres")
+                break
+            except psycopg2.OperationalError as error:  # of a standby that does not have it yet
+                if "does not exist" not in str(error):
+                    raise
+                time.sleep(0.5)
+        with connection, connection.cursor() as cursor:
+            cursor.execute("CREATE EXTENSION postgis")
+        connection.close()
