@@ -1,10 +1,7 @@
 #include "app/export/raster_tiles.hpp"
 
-#include "app/export/tile_line_merging.hpp"
+#include "app/export/tile_square_painter.hpp"
 #include "estimator/common/error.hpp"
-#include "render/labels/label_placement.hpp"
-#include "render/tiles/tile_painter.hpp"
-#include "render/tiles/tile_png.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +15,6 @@
 #include <exception>
 #include <functional>
 #include <iterator>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -34,12 +30,6 @@ namespace {
 
 // A square holds whole label cells, and the margin drawn around it is small in comparison.
 constexpr int square_px = 2048;
-
-/// Tiles that are drawn together: those of a square that the plan needs.
-struct Square {
-    TileId first; ///< north-west tile, wanted or not
-    TileRange wanted;
-};
 
 /// Limits the number of tiles: a remote town would add all tiles between.
 void expect_area(const PicturePlan& plan) {
@@ -58,10 +48,10 @@ void expect_area(const PicturePlan& plan) {
     }
 }
 
-std::vector<Square> squares_of(const PicturePlan& plan) {
+std::vector<TileSquare> squares_of(const PicturePlan& plan) {
     expect_area(plan);
     const auto across = static_cast<std::uint32_t>(square_px / plan.tile_px);
-    std::vector<Square> squares;
+    std::vector<TileSquare> squares;
     for (int zoom = plan.min_zoom; zoom <= plan.max_zoom; ++zoom) {
         const auto range = tiles_of(plan.box, zoom);
         for (auto y = range.first_y / across * across; y <= range.last_y; y += across) {
@@ -77,7 +67,7 @@ std::vector<Square> squares_of(const PicturePlan& plan) {
     return squares;
 }
 
-std::size_t count_of(const std::vector<Square>& squares) {
+std::size_t count_of(const std::vector<TileSquare>& squares) {
     std::size_t count = 0;
     for (const auto& [first, wanted] : squares) {
         count +=
@@ -85,65 +75,6 @@ std::size_t count_of(const std::vector<Square>& squares) {
     }
     return count;
 }
-
-/// Draws squares, one after the other.
-class TileRenderer {
-public:
-    TileRenderer(const std::filesystem::path& store,
-                 const PicturePlan& plan,
-                 LockWaitPolicy wait_policy)
-        : store_{StoreReader::open(store, std::move(wait_policy))}, plan_{plan},
-          painter_{{plan.style, plan.tile_px, square_px / plan.tile_px}}, png_{plan.style},
-          empty_{png_.empty(plan.tile_px)} {}
-
-    template <typename Put>
-    void draw(const Square& square, const Put& put) {
-        const auto lines = lines_of(square);
-        std::optional<Image> image;
-        if (!lines.empty()) {
-            image = painter_.draw(square.first, lines);
-        }
-        const auto& [first, wanted] = square;
-        for (auto y = wanted.first_y; y <= wanted.last_y; ++y) {
-            for (auto x = wanted.first_x; x <= wanted.last_x; ++x) {
-                const PictureCut cut{static_cast<int>(x - first.x) * plan_.tile_px,
-                                     static_cast<int>(y - first.y) * plan_.tile_px,
-                                     plan_.tile_px};
-                put(TileId{first.zoom, x, y}, image ? png_.encode(*image, cut) : empty_);
-            }
-        }
-    }
-
-private:
-    /// Returns the lines of all label cells with wanted tiles. Other tiles are drawn but not taken.
-    std::vector<MapLine> lines_of(const Square& square) const {
-        const WorldScale scale{square.first.zoom, plan_.tile_px};
-        const auto cell = static_cast<std::uint32_t>(label_cell_px / plan_.tile_px);
-        const auto last = (std::uint32_t{1} << unsigned(scale.zoom)) - 1;
-        const auto& wanted = square.wanted;
-        const auto north_west = tile_box(
-            {square.first.zoom, wanted.first_x / cell * cell, wanted.first_y / cell * cell});
-        const auto south_east = tile_box({square.first.zoom,
-                                          std::min(wanted.last_x / cell * cell + cell - 1, last),
-                                          std::min(wanted.last_y / cell * cell + cell - 1, last)});
-        return tile_lines(store_,
-                          {.west_deg = north_west.west_deg,
-                           .south_deg = south_east.south_deg,
-                           .east_deg = south_east.east_deg,
-                           .north_deg = north_west.north_deg},
-                          tile_line_rules(scale,
-                                          store_.settings().segment_length_m,
-                                          painter_.reach_px(scale.zoom)),
-                          *plan_.style.classes,
-                          plan_.style.min_passes);
-    }
-
-    StoreReader store_;
-    const PicturePlan& plan_;
-    TilePainter painter_;
-    TilePng png_;
-    std::vector<std::uint8_t> empty_;
-};
 
 // ------------------------------------------------------------------------ worker messages
 
@@ -192,15 +123,15 @@ using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>
                             std::size_t first,
                             int pipe) {
     try {
-        TileRenderer renderer{store, plan, wait_policy};
+        TileSquarePainter painter{
+            StoreReader::open(store, wait_policy), plan.style, plan.tile_px, square_px};
         const auto squares = squares_of(plan);
         for (auto i = first; i < squares.size(); i += plan.jobs) {
-            renderer.draw(squares[i],
-                          [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
-                              tell(pipe,
-                                   {Head::Kind::tile, tile, static_cast<std::uint32_t>(png.size())},
-                                   png.data());
-                          });
+            painter.draw(squares[i], [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
+                tell(pipe,
+                     {Head::Kind::tile, tile, static_cast<std::uint32_t>(png.size())},
+                     png.data());
+            });
         }
     } catch (const std::exception& error) {
         const std::string_view why{error.what()};

@@ -240,18 +240,27 @@ void write_worst(const StoreReader& store,
     folder.write("worst.json", worst_json(sections, records));
 }
 
-SiteSources file_sources(const TilePlan& tiles) {
+/// Address of a server's tiles, relative to its page.
+std::string served_tiles(std::string_view place, const std::string& version) {
+    return fmt::format("{}/WebMercatorQuad/{{z}}/{{y}}/{{x}}?v={}", place, version);
+}
+
+SiteSources file_sources(const SitePlan& plan) {
     const auto sharded = [](const std::string& name) {
         return JsonObject{}
             .add("index", name + "/index.json")
             .add("url", name + "/{shard}.json")
             .text();
     };
-    return {.tiles = JsonObject{}
-                         .add("pmtiles", "roads.pmtiles")
-                         .add("min_zoom", std::int64_t{tiles.min_zoom})
-                         .add("max_zoom", std::int64_t{tiles.max_zoom})
-                         .text(),
+    JsonObject tiles;
+    if (plan.served_version.empty()) {
+        tiles.add("pmtiles", "roads.pmtiles");
+    } else {
+        tiles.add("url", served_tiles("tiles", plan.served_version));
+    }
+    tiles.add("min_zoom", std::int64_t{plan.tiles.min_zoom})
+        .add("max_zoom", std::int64_t{plan.tiles.max_zoom});
+    return {.tiles = tiles.text(),
             .segments = sharded("segments"),
             .names = sharded("names"),
             .compare = JsonObject{}
@@ -286,15 +295,17 @@ void export_site(const StoreReader& store,
     const auto records = measured_segments(store, filter, console.progress("reading segments"));
     SiteTotals totals{*class_table(store.settings().class_table)};
     SiteNames names;
-    SiteManifest manifest{.title = plan.title,
-                          .left_hand = plan.left_hand,
-                          .bounds = {},
-                          .segments = records.size(),
-                          .months =
-                              months_within(site_months(store), filter.period.value_or(Period{})),
-                          .overview = {},
-                          .first_picture = {},
-                          .sources = file_sources(plan.tiles)};
+    SiteManifest manifest{
+        .title = plan.title,
+        .left_hand = plan.left_hand,
+        .bounds = {},
+        .segments = records.size(),
+        .months = months_within(site_months(store), filter.period.value_or(Period{})),
+        .overview = {},
+        .first_picture = {},
+        .pictures =
+            plan.served_version.empty() ? "" : served_tiles("map/tiles", plan.served_version),
+        .sources = file_sources(plan)};
     for (const auto& record : records) {
         totals.add(record);
         add_name(names, record);
@@ -308,14 +319,20 @@ void export_site(const StoreReader& store,
     for (const auto& language : languages()) {
         files.write(fmt::format("words/{}.json", language.code), words_json(language));
     }
-    if (write_overview(
+    const bool has_own_tiles = plan.served_version.empty();
+    if (has_own_tiles &&
+        write_overview(
             store, filter, files.place / overview_file, plan.title, plan.left_hand, console)) {
         manifest.overview = overview_file;
+    }
+    if (!has_own_tiles || !manifest.overview.empty()) {
         manifest.first_picture = write_first_pictures(
             store, filter, files.place, manifest.bounds, plan.left_hand, console);
     }
     files.write("site.json", manifest_json(store, manifest, totals));
-    write_vector_tiles(store, filter, files.place / "roads.pmtiles", plan.tiles, console);
+    if (has_own_tiles) {
+        write_vector_tiles(store, filter, files.place / "roads.pmtiles", plan.tiles, console);
+    }
     store.expect_in_place();
     output.commit();
     console.say(fmt::format("{}: a site of {}, {:.1f} km; put the folder on any web server",

@@ -18,6 +18,7 @@ struct SitePlan {
     std::string title;
     bool left_hand = false;
     TilePlan tiles;
+    std::string served_version{}; ///< of the tiles of a server; "": the site has its own
 };
 
 /// Writes the measured segments as a web page with all its data (docs/reference/site.md) into a

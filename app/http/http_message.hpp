@@ -21,7 +21,7 @@ public:
     HttpBody& operator=(const HttpBody&) = delete;
     virtual ~HttpBody() = default;
 
-    /// Called by the thread of the network. Exceptions become a response of status 503.
+    /// Called by a worker, one after the other. Exceptions become a response of status 503.
     virtual void add(std::string_view bytes) = 0;
 };
 

@@ -3,19 +3,21 @@
 #include "app/http/connection_deadlines.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/http/mhd_connection.hpp"
+#include "app/http/mhd_daemon.hpp"
 #include "app/http/request_check.hpp"
 #include "app/http/response_finish.hpp"
+#include "app/http/worker_lane.hpp"
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
 #include <microhttpd.h>
 
+#include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <deque>
 #include <exception>
 #include <map>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,8 +32,8 @@ using Clock = std::chrono::steady_clock;
 /// Bytes of responses that clients have not yet read; more are refused, whoever reads slowly.
 constexpr std::uint64_t max_unread_bytes = 256U << 20U;
 
-/// Bytes that libmicrohttpd keeps for each connection: its head, and the head of the response.
-constexpr std::size_t connection_bytes = std::size_t{40} * 1024;
+/// Bytes of a body that wait in memory until they are handed on.
+constexpr std::size_t block_bytes = std::size_t{32} * 1024;
 
 /// Request with its response, from its first line until the response is sent.
 struct Exchange {
@@ -46,46 +48,39 @@ struct Exchange {
     std::optional<HttpResponse> refusal{};
     std::uint64_t body_bytes = 0; ///< that are to be read before an answer
     std::uint64_t received_bytes = 0;
+    std::string pending{};        ///< received, and not yet handed on
+    Clock::duration handing_on{}; ///< time for which the client had to wait for us
+    std::size_t lane = 0;
     bool is_begun = false;
     bool is_counted = false;           ///< among the requests of its client
     std::atomic<bool> is_done = false; ///< by the worker
     std::uint64_t unread_bytes = 0;
 };
 
-/// Leaves targets encoded; they are decoded once (http_message.hpp).
-std::size_t leave_encoded(void* /*server*/, MHD_Connection* /*connection*/, char* text) {
-    return std::char_traits<char>::length(text);
-}
-
 } // namespace
 
-struct HttpServer::Impl {
+struct HttpServer::Impl final : MhdEvents {
     Impl(HttpServerConfig its_config, HttpHandlers its_handlers)
         : config{std::move(its_config)}, handlers{std::move(its_handlers)} {
         listening = open_listening_socket(config.host, config.port);
         port = port_of(listening);
-        for (std::size_t i = 0; i < config.workers; ++i) {
-            workers.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
+        lanes.emplace_back(0, config.workers, config.max_waiting);
+        auto workers = config.workers;
+        for (const auto& lane : config.lanes) {
+            lanes.emplace_back(workers, lane.workers, lane.max_waiting);
+            workers += lane.workers;
         }
-        start();
+        daemon = start_daemon(*this, listening, config);
+        if (daemon == nullptr) {
+            close(listening);
+            throw InputError{fmt::format("cannot serve on {} port {}", config.host, port)};
+        }
     }
 
-    ~Impl() {
+    ~Impl() override {
         drain(std::chrono::milliseconds{0});
-        for (auto& worker : workers) {
-            worker.request_stop();
-        }
-        arrived.notify_all();
-        workers.clear();
-        {
-            const std::lock_guard lock{mutex};
-            is_stopping = true;
-            for (const auto& [connection, exchange] : queue) {
-                answer(*exchange, http_problem(503, "the server stops"));
-                exchange->is_done = true;
-                MHD_resume_connection(connection);
-            }
-            queue.clear();
+        for (auto& lane : lanes) { // no connection stays suspended
+            lane.stop();
         }
         MHD_stop_daemon(daemon);
         if (quiesced >= 0) {
@@ -93,90 +88,25 @@ struct HttpServer::Impl {
         }
     }
 
-    void start() {
-        const auto per_address =
-            config.behind_proxy ? 0U : static_cast<unsigned>(config.max_per_address);
-        constexpr unsigned inactive_s = 120; // deadlines are shorter
-        daemon = MHD_start_daemon(
-            MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME,
-            0,
-            nullptr,
-            nullptr,
-            [](void* server,
-               MHD_Connection* connection,
-               const char*,
-               const char* method,
-               const char*,
-               const char* upload,
-               std::size_t* upload_size,
-               void** exchange) -> MHD_Result {
-                try { // nothing may be thrown through the library, which is C
-                    const std::string_view block{upload == nullptr ? "" : upload, *upload_size};
-                    *upload_size = 0; // all of it is taken
-                    return static_cast<Impl*>(server)->handle(
-                        connection, method, block, *static_cast<Exchange*>(*exchange));
-                } catch (const std::exception&) {
-                    return MHD_NO; // ends the connection
-                }
-            },
-            this,
-            MHD_OPTION_LISTEN_SOCKET,
-            listening,
-            MHD_OPTION_CONNECTION_MEMORY_LIMIT,
-            connection_bytes,
-            MHD_OPTION_CONNECTION_LIMIT,
-            static_cast<unsigned>(config.max_connections),
-            MHD_OPTION_PER_IP_CONNECTION_LIMIT,
-            per_address,
-            MHD_OPTION_CONNECTION_TIMEOUT,
-            inactive_s,
-            MHD_OPTION_URI_LOG_CALLBACK,
-            +[](void*, const char* uri, MHD_Connection*) -> void* { return new Exchange{uri}; },
-            nullptr,
-            MHD_OPTION_UNESCAPE_CALLBACK,
-            &leave_encoded,
-            nullptr,
-            MHD_OPTION_NOTIFY_CONNECTION,
-            +[](void* server,
-                MHD_Connection* connection,
-                void**,
-                MHD_ConnectionNotificationCode code) {
-                static_cast<Impl*>(server)->note_connection(connection, code);
-            },
-            this,
-            MHD_OPTION_NOTIFY_COMPLETED,
-            +[](void* server,
-                MHD_Connection* connection,
-                void** exchange,
-                MHD_RequestTerminationCode) {
-                static_cast<Impl*>(server)->complete(connection, static_cast<Exchange*>(*exchange));
-                *exchange = nullptr;
-            },
-            this,
-            MHD_OPTION_END);
-        if (daemon == nullptr) {
-            close(listening);
-            throw InputError{fmt::format("cannot serve on {} port {}", config.host, port)};
-        }
-    }
-
     // ------------------------------------------------------------------- thread of the network
 
-    void note_connection(MHD_Connection* connection, MHD_ConnectionNotificationCode code) {
-        const int socket = socket_of(connection);
-        if (code == MHD_CONNECTION_NOTIFY_STARTED) {
-            ++connections;
-            deadlines.set(socket, config.head_time);
-        } else {
-            --connections;
-            deadlines.remove(socket);
-        }
+    void connected(MHD_Connection* connection) override {
+        ++connections;
+        deadlines.set(socket_of(connection), config.head_time);
     }
+
+    void disconnected(MHD_Connection* connection) override {
+        --connections;
+        deadlines.remove(socket_of(connection));
+    }
+
+    void* begun(const char* uri) override { return new Exchange{uri}; }
 
     MHD_Result handle(MHD_Connection* connection,
                       const char* method,
                       std::string_view block,
-                      Exchange& exchange) {
+                      void* request) override {
+        auto& exchange = *static_cast<Exchange*>(request);
         if (exchange.is_done) {
             return queue_response(connection, exchange);
         }
@@ -200,51 +130,55 @@ struct HttpServer::Impl {
             answer(exchange, *std::move(exchange.refusal));
             return queue_response(connection, exchange);
         }
-        return hand_to_worker(connection, exchange);
+        hand_to_worker(connection, exchange, [this, connection, &exchange](std::size_t worker) {
+            work_on(exchange, worker);
+            exchange.is_done = true;
+            MHD_resume_connection(connection);
+        });
+        return MHD_YES;
     }
 
     /// Takes a block of a body; that of a refused request is dropped, because a client that still
-    /// sends would not see the answer.
-    void receive(MHD_Connection* connection, Exchange& exchange, std::string_view block) const {
+    /// sends would not see the answer. Blocks go to a worker, and the client waits meanwhile, so
+    /// that a slow disk stalls nobody else and no body fills the memory.
+    void receive(MHD_Connection* connection, Exchange& exchange, std::string_view block) {
         exchange.received_bytes += block.size();
         if (!exchange.refusal && exchange.request.body) {
-            try {
-                exchange.request.body->add(block);
-            } catch (const std::exception& error) { // a full disk
-                exchange.refusal = busy(503, "the body cannot be stored now");
-                exchange.request.body.reset(); // makes room at once
-                if (handlers.failed) {
-                    handlers.failed(exchange.request.path, error.what());
-                }
-            }
+            exchange.pending += block;
         }
-        set_body_deadline(connection, exchange);
+        if (exchange.pending.size() < block_bytes) {
+            set_body_deadline(connection, exchange);
+            return;
+        }
+        const auto begin = Clock::now();
+        hand_to_worker(connection, exchange, [this, connection, &exchange, begin](std::size_t) {
+            hand_on(exchange);
+            exchange.handing_on += Clock::now() - begin;
+            set_body_deadline(connection, exchange);
+            MHD_resume_connection(connection);
+        });
     }
 
     void set_body_deadline(MHD_Connection* connection, const Exchange& exchange) const {
-        const auto end = exchange.begin + config.body_time +
+        const auto end = exchange.begin + config.body_time + exchange.handing_on +
                          std::chrono::seconds{exchange.received_bytes /
                                               std::max<std::size_t>(config.slowest_bytes, 1)};
         deadlines.set(socket_of(connection), end - Clock::now());
     }
 
-    MHD_Result hand_to_worker(MHD_Connection* connection, Exchange& exchange) {
+    /// Suspends a connection until a worker has done a job, which resumes it.
+    template <typename Run>
+    void hand_to_worker(MHD_Connection* connection, Exchange& exchange, Run run) {
         deadlines.suspend(socket_of(connection));
-        bool stops = false;
-        {
-            const std::lock_guard lock{mutex};
-            stops = is_stopping;
-            if (!stops) { // later, nobody would resume it
-                MHD_suspend_connection(connection);
-                queue.emplace_back(connection, &exchange);
-            }
-        }
-        if (stops) {
+        MHD_suspend_connection(connection);
+        const auto drop = [this, connection, &exchange] {
             answer(exchange, busy(503, "the server stops"));
-            return queue_response(connection, exchange);
+            exchange.is_done = true;
+            MHD_resume_connection(connection);
+        };
+        if (!lanes[exchange.lane].add({std::move(run), drop})) {
+            drop();
         }
-        arrived.notify_one();
-        return MHD_YES;
     }
 
     /// Returns the response to a request that no worker needs to see.
@@ -271,8 +205,10 @@ struct HttpServer::Impl {
             }
             exchange.request.body = std::move(admission.body);
         }
-        const std::lock_guard lock{mutex};
-        if (queue.size() >= config.max_waiting || unread_bytes > max_unread_bytes) {
+        if (handlers.lane) {
+            exchange.lane = std::min(handlers.lane(exchange.request), lanes.size() - 1);
+        }
+        if (lanes[exchange.lane].is_full() || unread_bytes > max_unread_bytes) {
             return busy(503, "more is asked than this server can answer now");
         }
         if (config.behind_proxy) {
@@ -321,14 +257,14 @@ struct HttpServer::Impl {
         return result;
     }
 
-    void complete(MHD_Connection* connection, Exchange* exchange) {
+    void completed(MHD_Connection* connection, void* request) override {
         deadlines.set(socket_of(connection), config.head_time); // of the next request
-        if (exchange == nullptr) {
+        const std::unique_ptr<Exchange> exchange{static_cast<Exchange*>(request)};
+        if (!exchange) {
             return;
         }
         unread_bytes -= exchange->unread_bytes;
         if (exchange->is_counted) {
-            const std::lock_guard lock{mutex};
             const auto count = requests_of.find(exchange->request.client);
             if (--count->second == 0) {
                 requests_of.erase(count);
@@ -337,32 +273,40 @@ struct HttpServer::Impl {
         if (exchange->is_begun) {
             --at_work;
         }
-        delete exchange;
+        if (auto body = std::move(exchange->request.body)) { // cut; removing it takes a disk's time
+            lanes[exchange->lane].add({[body](std::size_t) {}, [] {}});
+        }
     }
 
     // ------------------------------------------------------------------------------- workers
 
-    void work(std::size_t number, const std::stop_token& stop) {
-        while (true) {
-            std::unique_lock lock{mutex};
-            if (!arrived.wait(lock, stop, [this] { return !queue.empty(); }) ||
-                stop.stop_requested()) {
-                return;
+    /// Hands the bytes that wait to the receiver of the body.
+    void hand_on(Exchange& exchange) const {
+        try {
+            exchange.request.body->add(exchange.pending);
+        } catch (const std::exception& error) { // a full disk
+            exchange.refusal = busy(503, "the body cannot be stored now");
+            exchange.request.body.reset(); // makes room at once
+            if (handlers.failed) {
+                handlers.failed(exchange.request.path, error.what());
             }
-            const auto [connection, exchange] = queue.front();
-            queue.pop_front();
-            lock.unlock();
-            work_on(*exchange, number);
-            exchange->is_done = true;
-            MHD_resume_connection(connection);
         }
+        exchange.pending.clear();
     }
 
     /// Answers, and compresses the answer, which takes its time.
     void work_on(Exchange& exchange, std::size_t number) const {
         std::string reason;
+        if (!exchange.pending.empty()) {
+            hand_on(exchange);
+        }
+        if (exchange.refusal) {
+            answer(exchange, *std::move(exchange.refusal));
+            return;
+        }
         try {
             answer(exchange, handlers.answer(exchange.request, number));
+            exchange.request.body.reset();
             return;
         } catch (const std::exception& error) {
             reason = error.what();
@@ -396,12 +340,8 @@ struct HttpServer::Impl {
     std::atomic<std::size_t> connections = 0;
     std::atomic<std::size_t> at_work = 0;
     std::atomic<std::uint64_t> unread_bytes = 0;
-    std::mutex mutex; ///< guards the three below
-    bool is_stopping = false;
-    std::deque<std::pair<MHD_Connection*, Exchange*>> queue;
     std::map<std::string, std::size_t> requests_of; ///< of clients, at work
-    std::condition_variable_any arrived;
-    std::vector<std::jthread> workers;
+    std::deque<WorkerLane> lanes;
 };
 
 HttpServer::HttpServer(HttpServerConfig config, HttpHandlers handlers)

@@ -14,11 +14,18 @@
 
 namespace macadam {
 
+/// Workers for requests of one kind, which hold up no others.
+struct HttpLane {
+    std::size_t workers = 1;
+    std::size_t max_waiting = 512; ///< requests; more are refused
+};
+
 /// Limits of a server (docs/reference/serve.md).
 struct HttpServerConfig {
     std::string host = "127.0.0.1"; ///< an address, not a name
     std::uint16_t port = 8080;      ///< 0: any free one
-    std::size_t workers = 2;
+    std::size_t workers = 2;        ///< of lane 0
+    std::vector<HttpLane> lanes{};  ///< lanes 1, 2, ..., whose workers have the next numbers
     bool behind_proxy = false; ///< clients are told apart by the last address of X-Forwarded-For
     std::vector<std::string> hosts{}; ///< accepted in the header Host, beside loopback ones
     std::string allowed_origin{};     ///< of CORS; "" = none
@@ -54,7 +61,7 @@ struct HttpAdmission {
 
 /// Functions that answer requests. Exceptions become a response of status 500 that tells no more.
 struct HttpHandlers {
-    /// Called by a worker of that number, less than HttpServerConfig::workers.
+    /// Called by a worker of that number, less than the workers of all lanes.
     std::function<HttpResponse(const HttpRequest&, std::size_t worker)> answer;
 
     /// Called by the thread of the network, so that no slow answer delays it; `std::nullopt`: the
@@ -63,6 +70,9 @@ struct HttpHandlers {
 
     /// Called by the thread of the network, after `answer_at_once`; missing: all are admitted.
     std::function<HttpAdmission(const HttpRequest&)> admit{};
+
+    /// Lane whose workers receive the body of an admitted request and answer it; missing: 0.
+    std::function<std::size_t(const HttpRequest&)> lane{};
 
     std::function<void(const HttpRecord&)> record{}; ///< from one thread
     std::function<void(const std::string& route, const std::string& what)> failed{};

@@ -3,6 +3,7 @@
 #include "app/cli/arguments.hpp"
 #include "app/http/static_folder.hpp"
 #include "app/serve/live/live_content.hpp"
+#include "app/serve/live/picture_tiles.hpp"
 #include "app/serve/ogc/api_description.hpp"
 #include "app/serve/ogc/features_api.hpp"
 #include "app/serve/ogc/per_version.hpp"
@@ -48,6 +49,7 @@ using PathWords = std::vector<std::string>;
 struct Pages {
     FeaturesApi features;
     const LiveContent& live;
+    PictureTiles& pictures;
 };
 
 /// Answers with the latest tiles, whose version is that of the page; null before the first.
@@ -57,7 +59,8 @@ HttpResponse with_tiles(const Pages& pages, const ApiContext& context, const Ans
     return answer(ApiContext{.request = context.request,
                              .store = context.store,
                              .version = tiles ? tiles->version() : context.version,
-                             .base = context.base},
+                             .base = context.base,
+                             .is_operator = context.is_operator},
                   tiles.get());
 }
 
@@ -73,7 +76,8 @@ HttpResponse tile_set(Pages& pages, const ApiContext& context, const PathWords& 
 
 HttpResponse tile(Pages& pages, const ApiContext& context, const PathWords& words) {
     return with_tiles(pages, context, [&](const ApiContext& of_tiles, const TileSet* tiles) {
-        return tile_response(of_tiles, tiles, words[0], {words[1], words[2], words[3]});
+        return tile_response(
+            of_tiles, tiles, pages.pictures, words[0], {words[1], words[2], words[3]});
     });
 }
 
@@ -91,10 +95,10 @@ struct Route {
 constexpr std::array routes{
     Route{"/", [](Pages&, const ApiContext& c, const PathWords&) { return landing_page(c); }},
     Route{"/conformance", [](Pages&, const ApiContext& c, const PathWords&) { return conformance_page(c); }},
-    Route{"/api", [](Pages&, const ApiContext& c, const PathWords&) { return openapi_page(c); }},
+    Route{"/api", [](Pages& p, const ApiContext& c, const PathWords&) { return openapi_page(c, p.features.collections_for(false)); }},
     Route{"/collections", [](Pages& p, const ApiContext& c, const PathWords&) { return p.features.collections(c); }},
     Route{"/collections/{id}", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.collection(c, w[0]); }},
-    Route{"/collections/{id}/queryables", [](Pages&, const ApiContext& c, const PathWords& w) { return FeaturesApi::queryables(c, w[0]); }},
+    Route{"/collections/{id}/queryables", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.queryables(c, w[0]); }},
     Route{"/collections/{id}/items", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.items(c, w[0]); }},
     Route{"/collections/{id}/items/{feature}",
           [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.item(c, w[0], w[1]); }},
@@ -106,6 +110,9 @@ constexpr std::array routes{
     Route{"/collections/segments/tiles", tile_sets},
     Route{"/collections/segments/tiles/{set}", tile_set},
     Route{"/collections/segments/tiles/{set}/{z}/{row}/{column}", tile},
+    Route{"/map/tiles", tile_sets},
+    Route{"/map/tiles/{set}", tile_set},
+    Route{"/map/tiles/{set}/{z}/{row}/{column}", tile},
     Route{"/tiles.json", tile_json},
 };
 // clang-format on
@@ -195,6 +202,19 @@ HttpResponse answered(Pages& pages, const ApiContext& context) {
     return http_problem(404, "there is no such page");
 }
 
+// -------------------------------------------------------------------------------------- lanes
+
+/// Workers that wait for pictures, which one thread draws, and those that write to a disk: neither
+/// holds up those who read.
+constexpr HttpLane drawing_workers{.workers = 8, .max_waiting = 64};
+constexpr HttpLane storing_workers{.workers = 2, .max_waiting = 256};
+
+std::size_t lane_of(const HttpRequest& request) {
+    constexpr std::size_t of_all = 0, of_drawing = 1, of_storing = 2;
+    const bool writes = request.method != "GET" && request.method != "HEAD";
+    return writes ? of_storing : is_for_picture_tile(request) ? of_drawing : of_all;
+}
+
 // -------------------------------------------------------------------------------------- server
 
 /// Returns the address under which a client sees this server.
@@ -281,8 +301,13 @@ HttpAdmission admitted(TripsApi& trips, const HttpRequest& request, bool only_wi
         return trips.admit(request);
     }
     if (reads(request)) {
+        using Readers = TripsApi::Readers;
+        if (is_path_of_operator(request.path)) {
+            return {.refusal = trips.refused_reading(request, Readers::operator_)};
+        }
         const bool is_open = !only_with_token || request.path.starts_with("/drive/");
-        return {.refusal = is_open ? std::nullopt : trips.refused_reading(request)};
+        return {.refusal =
+                    is_open ? std::nullopt : trips.refused_reading(request, Readers::with_token)};
     }
     auto refusal = http_problem(405, "expected GET or HEAD");
     refusal.headers.emplace_back("Allow", "GET, HEAD");
@@ -305,13 +330,19 @@ void serve_database(const std::filesystem::path& file,
                     const ServedAddress& address,
                     const Console& console,
                     const std::function<void(std::uint16_t port)>& started,
-                    const TripReception& reception) {
+                    const TripReception& reception,
+                    const std::optional<SectionOptions>& sections) {
     auto config = asked;
     config.max_body_bytes = max_trip_bytes;
+    config.lanes = {drawing_workers, storing_workers};
     std::stop_source interruption; // of reading, once the time to drain is over
-    ServedStore store{file, audience, config.workers, interruption.get_token()};
+    ServedStore store{file,
+                      audience,
+                      config.workers + drawing_workers.workers + storing_workers.workers,
+                      interruption.get_token()};
     LiveContent live{file, audience, console};
-    Pages pages{.features = {}, .live = live};
+    PictureTiles pictures{file, audience, console};
+    Pages pages{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
     UploadWorkers workers{{.store = file, .arguments = upload_arguments(reception.import_words)},
@@ -327,17 +358,21 @@ void serve_database(const std::filesystem::path& file,
     handlers.admit = [&](const HttpRequest& request) {
         return admitted(trips, request, reception.only_with_token);
     };
+    handlers.lane = lane_of;
     handlers.answer = [&](const HttpRequest& request, std::size_t worker) {
         if (TripsApi::has_path(request.path)) {
             return trips.answer(request);
         }
         const auto version = store.version();
+        const bool is_listing = request.path.starts_with("/collections");
         try {
             auto response = answered(pages,
                                      {.request = request,
                                       .store = store.reader(worker),
                                       .version = version,
-                                      .base = base_of(request, address)});
+                                      .base = base_of(request, address),
+                                      .is_operator = is_listing && trips.is_of_operator(request),
+                                      .trips_version = store.trips_version()});
             if (reception.only_with_token) {
                 keep_private(response);
             }
@@ -368,6 +403,7 @@ void serve_database(const std::filesystem::path& file,
     workers.request_stop();
     server.drain(drain_time);
     interruption.request_stop();
+    pictures.request_stop();
 }
 
 void serve_folder(const std::filesystem::path& folder,

@@ -2,12 +2,14 @@
 
 #include "app/cli/console.hpp"
 #include "app/http/http_server.hpp"
+#include "app/query/section_options.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,8 @@ struct TripReception {
 };
 
 /// Serves a database until a stop is requested: OGC API, tiles, trips, /health and /metrics.
-/// \param started  called with the port when requests are answered
+/// \param started   called with the port when requests are answered
+/// \param sections  those of the collection sections; `std::nullopt`: there is none
 /// \throws InputError  if the file is no database or the address is in use.
 void serve_database(const std::filesystem::path& file,
                     Audience audience,
@@ -35,7 +38,8 @@ void serve_database(const std::filesystem::path& file,
                     const ServedAddress& address,
                     const Console& console,
                     const std::function<void(std::uint16_t port)>& started,
-                    const TripReception& reception = {});
+                    const TripReception& reception = {},
+                    const std::optional<SectionOptions>& sections = {});
 
 /// Serves the files of a folder in the same way.
 void serve_folder(const std::filesystem::path& folder,

@@ -6,7 +6,9 @@
 #include "app/parallel/jobs_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
+#include "app/query/section_options.hpp"
 #include "app/serve/api_server.hpp"
+#include "storage/surveys/section_file.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace macadam {
 namespace {
@@ -74,6 +77,15 @@ TripReception parse_reception(const Arguments& arguments) {
     return reception;
 }
 
+/// Parses the sections, whose file is read now, so that an invalid one is refused at once.
+std::optional<SectionOptions> parse_served_sections(const Arguments& arguments) {
+    auto sections = parse_sections(arguments, false);
+    if (sections) {
+        static_cast<void>(read_sections(*sections->sections));
+    }
+    return sections;
+}
+
 void run_serve(const Arguments& arguments, const Console& console) {
     HttpServerConfig config;
     ServedAddress address;
@@ -97,13 +109,17 @@ void run_serve(const Arguments& arguments, const Console& console) {
         if (arguments.flag("--only-with-token")) {
             throw UsageError{"--only-with-token is for a database; a folder is shown to all"};
         }
+        if (parse_sections(arguments, false)) {
+            throw UsageError{"--sections is for a database; a folder has no collections"};
+        }
         serve_folder(given, config, address, console, started);
         return;
     }
     const auto file = store_file(arguments);
     tell_publication(StoreReader::open(file), console);
-    serve_database(
-        file, Audience::anyone, config, address, console, started, parse_reception(arguments));
+    const auto reception = parse_reception(arguments);
+    const auto sections = parse_served_sections(arguments);
+    serve_database(file, Audience::anyone, config, address, console, started, reception, sections);
 }
 
 constexpr std::array operands{
@@ -128,6 +144,11 @@ constexpr std::array options{
            "1"},
     vehicles_option,
     rare(method_option),
+    sections_option,
+    section_length_option,
+    homogeneous_option,
+    exclude_option,
+    exclude_radius_option,
     Option{"--access-log", "", "Print a line for each request, without addresses and positions."},
     preference(
         {"--jobs", "N", "Number of requests that are worked on at once.", default_jobs_words})};

@@ -21,6 +21,13 @@ std::uint64_t inode_of(const std::filesystem::path& file) {
     return stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
+std::string hashed(const std::string& text) {
+    Sha256 hash;
+    hash.add(text);
+    constexpr std::size_t letters = 16;
+    return hash.hex().substr(0, letters);
+}
+
 } // namespace
 
 /// Connection that only looks for changes.
@@ -62,6 +69,11 @@ std::string ServedStore::version() const {
     return version_;
 }
 
+std::string ServedStore::trips_version() const {
+    const std::lock_guard lock{mutex_};
+    return trips_version_;
+}
+
 bool ServedStore::look() {
     if (const auto inode = inode_of(file_); inode == 0) {
         throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
@@ -77,30 +89,29 @@ bool ServedStore::look() {
         return false;
     }
     shows_published_alone_ = open().shows_published_alone(); // it may have become a crowd's
-    auto version = version_now();
+    auto [content, trips] = versions_now();
     watch_->data_version = data_version; // not before, as the above may throw
     const std::lock_guard lock{mutex_};
-    return std::exchange(version_, std::move(version)) != version_;
+    trips_version_ = std::move(trips);
+    return std::exchange(version_, std::move(content)) != version_;
 }
 
-std::string ServedStore::version_now() {
+ServedStore::Versions ServedStore::versions_now() {
     auto& database = watch_->database;
     const Transaction one_moment{database, Transaction::Kind::read};
     auto text = fmt::format("{}\n{}",
                             watch_->inode,
                             database.number("SELECT coalesce(max(number), 0) FROM publication"));
+    const auto [maintenance, last_trip] = moment_of(database);
+    const auto trips = fmt::format("{}\n{}\n{}", watch_->inode, maintenance, last_trip);
     if (!shows_published_alone_) { // trips that are not published must not show here, either
-        const auto [maintenance, last_trip] = moment_of(database);
-        text += fmt::format("\n{}\n{}", maintenance, last_trip);
+        text += "\n" + trips;
         if (!dirty_chunks(database).empty()) { // values change without another trip
             text +=
                 fmt::format("\n{}", std::chrono::system_clock::now().time_since_epoch().count());
         }
     }
-    Sha256 hash;
-    hash.add(text);
-    constexpr std::size_t letters = 16;
-    return hash.hex().substr(0, letters);
+    return {hashed(text), hashed("trips\n" + trips)};
 }
 
 } // namespace macadam

@@ -32,6 +32,9 @@ public:
     /// restarts once all passes are fused.
     std::string version() const;
 
+    /// Text that changes with the trips, published or not.
+    std::string trips_version() const;
+
     /// Looks for changes, which commits of other programs make; called every second by one thread.
     /// \returns true if the version has changed.
     bool look();
@@ -46,7 +49,10 @@ private:
     struct Watch;
 
     StoreReader open() const;
-    std::string version_now();
+    struct Versions {
+        std::string content, trips;
+    };
+    Versions versions_now();
 
     std::filesystem::path file_;
     Audience audience_;
@@ -59,8 +65,9 @@ private:
     std::vector<Opened> readers_;        ///< one for each worker, touched by it alone
     std::atomic<std::size_t> epoch_ = 0; ///< of the file, grows as it is replaced
     std::unique_ptr<Watch> watch_;
-    mutable std::mutex mutex_; ///< guards version_
+    mutable std::mutex mutex_; ///< guards those below
     std::string version_;
+    std::string trips_version_;
 };
 
 } // namespace macadam

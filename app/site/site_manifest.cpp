@@ -109,6 +109,7 @@ manifest_json(const StoreReader& store, const SiteManifest& manifest, const Site
         .add("overview", manifest.overview.empty() ? JsonValue{nullptr} : manifest.overview)
         .add("first_picture",
              JsonRaw{manifest.first_picture ? box_json(*manifest.first_picture) : "null"})
+        .add("pictures", manifest.pictures.empty() ? JsonValue{nullptr} : manifest.pictures)
         .add("months", JsonRaw{json_string_array(manifest.months)})
         .add("compare", JsonRaw{manifest.sources.compare})
         .text();

@@ -28,6 +28,7 @@ struct SiteManifest {
     std::vector<std::string> months;     ///< "2026-03", ascending
     std::string overview;                ///< picture of all roads; "" = none
     std::optional<GeoBox> first_picture; ///< bounds of first_light.png and first_dark.png
+    std::string pictures{};              ///< address of picture tiles with {z}, {y}, {x}; "" = none
     SiteSources sources;
 };
 

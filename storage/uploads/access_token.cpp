@@ -48,7 +48,7 @@ bool is_equal(const std::string& kept_sha256, std::string_view secret) {
 void expect_scope(Database& uploads, const std::string& owner, TokenScope scope) {
     auto others = uploads.prepare("SELECT scope FROM token WHERE owner = ? AND scope <> ?");
     if (others.bind(owner, name_of(scope)).step()) {
-        throw InputError{fmt::format("{} has tokens for '{}', expected a new name for '{}'",
+        throw OtherScope{fmt::format("{} has tokens for '{}', expected a new name for '{}'",
                                      in_quotes(owner),
                                      others.text(0),
                                      name_of(scope))};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/common/error.hpp"
 #include "storage/sqlite/sqlite.hpp"
 
 #include <cstdint>
@@ -42,8 +43,14 @@ SecretText make_secret();
 /// password of Basic; "" if there is none.
 std::string token_in(std::string_view authorization);
 
+/// Thrown if a token of an owner has another scope than the one to be made.
+class OtherScope : public InputError {
+public:
+    using InputError::InputError;
+};
+
 /// Creates a token. \returns its text, which is not kept.
-/// \throws InputError  if a token of this owner has another scope.
+/// \throws OtherScope
 std::string create_token(Database& uploads, const AccessToken& token);
 
 /// Finds the token of a text; `std::nullopt` if there is none or it has expired. Secrets are
@@ -65,11 +72,12 @@ struct Invitation {
 };
 
 /// Creates an invitation. \returns its text, which is not kept.
-/// \throws InputError  if a token of this owner has another scope.
+/// \throws OtherScope
 std::string create_invitation(Database& uploads, const Invitation& invitation);
 
 /// Takes an invitation. \returns the token; `std::nullopt` if there is no such invitation, or it
 /// was taken or has expired.
+/// \throws OtherScope
 std::optional<std::string>
 take_invitation(Database& uploads, std::string_view text, std::int64_t now_ms);
 

@@ -5,6 +5,7 @@ import { el, option, replace } from './dom.js';
 import { showFirstPicture } from './first_picture.js';
 import { openMap } from './map.js';
 import { openPanel } from './panel.js';
+import { pictureMap } from './pictures.js';
 import { openRouting } from './routing.js';
 import { choose, link, onState, readState, state } from './state.js';
 import { day, iri, iriUnit, month, roadLength, speak, w } from './words.js';
@@ -221,8 +222,8 @@ function openSheetFor(id) {
 // Without a map: the names of the roads lead to all numbers.
 async function listNames() {
   const names = await data.names('', 200);
-  const { overview } = data.site;
-  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), overview && el('img', { class: 'overview', src: overview, alt: w('site.overview') }), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.roads') },
+  const { overview, pictures, bounds } = data.site;
+  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), pictures ? pictureMap(pictures, bounds) : overview && el('img', { class: 'overview', src: overview, alt: w('site.overview') }), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.roads') },
     el('table', { id: 'road-table' }, el('caption', {}, w('site.roads')),
       el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
       el('tbody', {}, ...names.map((road) => el('tr', {}, el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => openSegment(road.segment) }, road.name)),

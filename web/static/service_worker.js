@@ -6,7 +6,7 @@ const page = ['./', 'assets/site.js', 'assets/site.css', 'assets/icon.svg', 'ass
 const start = ['site.json', 'totals.json', 'worst.json', 'words/en.json', 'words/de.json'];
 const mostAnswers = 300; // of data: tiles and lists, most of them below 200 kB
 const isPage = /^(index\.html)?$|^assets\//;
-const isData = /^(site|totals|worst|names)\.json$|^(words|segments|names|months)\/.*\.json$|^tiles\/|\.pmtiles$|^overview\.png$/;
+const isData = /^(site|totals|worst|names)\.json$|^(words|segments|names|months)\/.*\.json$|^(map\/)?tiles\/|\.pmtiles$|^overview\.png$/;
 
 const stamp = ({ headers }) => headers.get('ETag') ?? headers.get('Last-Modified') ?? '';
 

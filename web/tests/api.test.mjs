@@ -4,13 +4,12 @@ import Ajv from 'ajv';
 import fc from 'fast-check';
 import { createConfig, lintFromString } from '@redocly/openapi-core';
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { Agent, get } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { createInterface } from 'node:readline';
 import { after, before, describe, test } from 'node:test';
+import { served } from './served.mjs';
 import { simulated } from './simulated.mjs';
 
 let api, server, folder, url;
@@ -27,19 +26,14 @@ const ask = (target) => new Promise((resolve, reject) => {
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'macadam-api-'));
-  server = spawn(process.env.MACADAM_PROGRAM, ['serve', process.env.MACADAM_WEB_DATABASE ?? simulated(folder), '--listen', '127.0.0.1:0'], { stdio: ['ignore', 'ignore', 'pipe'] });
-  for await (const line of createInterface(server.stderr)) {
-    url = /serving on (http:\/\/[\d.]+:\d+)\//.exec(line)?.[1];
-    if (url) break;
-  }
-  server.stderr.resume();
-  while ((await ask('/tiles.json')).status === 503) await new Promise((resolve) => { setTimeout(resolve, 200); });
+  server = await served(process.env.MACADAM_WEB_DATABASE ?? simulated(folder));
+  url = server.url;
   api = JSON.parse((await ask('/api')).body);
 }, { timeout: 110_000 });
 
 after(() => {
   agent.destroy();
-  server?.kill();
+  server?.close();
   rmSync(folder, { recursive: true, force: true });
 });
 

@@ -29,17 +29,17 @@ export async function world() {
 
     // A page that has drawn its map; without its worker, which answers what a test wants to fail, unless it `keeps` answers.
     // What it asks of other hosts, logs or throws is a failure when it closes.
-    async page(hash = '', { width = 1280, height = 800, ready = true, path = '', keeps = false, ...context } = {}) {
+    async page(hash = '', { width = 1280, height = 800, ready = true, path = '', keeps = false, url = server.url, ...context } = {}) {
       const opened = await browser.newContext({ viewport: { width, height }, locale: 'en-GB', ...context });
       const page = await opened.newPage();
       if (!keeps) await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'serviceWorker', { value: undefined }));
       page.setDefaultTimeout(20_000);
       const wrong = [];
-      page.on('request', (request) => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(server.url)) wrong.push(`asked ${request.url()}`); });
+      page.on('request', (request) => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(url)) wrong.push(`asked ${request.url()}`); });
       page.on('pageerror', (error) => wrong.push(String(error)));
       page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) wrong.push(message.text()); });
       if (context.before) await context.before(page);
-      await page.goto(server.url + path + hash);
+      await page.goto(url + path + hash);
       const drawn = () => page.waitForSelector('#map[data-ready]', { timeout: 15_000 });
       if (ready) await drawn();
       return {

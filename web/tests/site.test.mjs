@@ -4,6 +4,7 @@ import { gzipSync } from 'node:zlib';
 import { after, before, describe, test } from 'node:test';
 import { join } from 'node:path';
 import { addFeatures, newNetwork, routeAlong } from '../src/network.js';
+import { served } from './served.mjs';
 import { world } from './browser.mjs';
 
 let town;
@@ -471,6 +472,29 @@ describe('the page', { timeout: 380_000 }, () => {
     await opened.page.waitForSelector('.drawer dl');
     assert.deepEqual(await opened.breaches(), []);
     await opened.close();
+  });
+
+  test('pans picture tiles of a server without WebGL', async () => {
+    const live = await served(town.database);
+    await live.waitFor('/site.json');
+    const opened = await town.page('/', { url: live.url, ready: false, before: (page) => page.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; }) });
+    const { page } = opened;
+    const shown = () => page.evaluate(() => [...document.querySelectorAll('.tiles img')].filter((tile) => !tile.hidden && tile.naturalWidth === 256).map((tile) => tile.style.transform).sort().join());
+    const changed = async (act) => {
+      const before = await shown();
+      await act();
+      await page.waitForFunction((then) => {
+        const now = [...document.querySelectorAll('.tiles img')].filter((tile) => !tile.hidden && tile.naturalWidth === 256).map((tile) => tile.style.transform).sort().join();
+        return now !== '' && now !== then;
+      }, before);
+    };
+    await changed(() => page.waitForSelector('.tiles img:not([hidden])', { state: 'attached' }));
+    await page.locator('.pictures').focus();
+    await changed(() => page.keyboard.press('ArrowRight'));
+    await changed(() => page.getByRole('button', { name: 'Zoom in' }).click());
+    assert.deepEqual(await opened.breaches(), []);
+    await opened.close();
+    live.close();
   });
 
   test('says what failed, and tries again', async () => {

@@ -15,7 +15,10 @@ std::string feature_text(const Feature& feature,
     JsonObject object;
     object.add("type", "Feature")
         .add("id", feature.id)
-        .add("geometry", JsonRaw{geometry_text(feature.line, feature.is_point, crs)})
+        .add("geometry",
+             feature.line.empty()
+                 ? JsonValue{nullptr}
+                 : JsonValue{JsonRaw{geometry_text(feature.line, feature.is_point, crs)}})
         .add("properties", JsonRaw{properties.text()});
     if (!links.empty()) {
         object.add("links", JsonRaw{std::string{links}});

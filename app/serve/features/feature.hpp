@@ -37,7 +37,7 @@ std::vector<FeatureColumn> feature_columns(const Columns<Row>& columns) {
 /// Feature of a collection. It refers to a row and a line that outlive it.
 struct Feature {
     std::string id;
-    std::span<const GeoPoint> line; ///< one point for events
+    std::span<const GeoPoint> line; ///< one point for events; empty: it has no geometry
     bool is_point = false;
     const void* row = nullptr;
 };

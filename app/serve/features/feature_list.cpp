@@ -1,5 +1,7 @@
 #include "app/serve/features/feature_list.hpp"
 
+#include "app/query/section_output.hpp"
+#include "app/query/section_query.hpp"
 #include "app/query/worst_sections_output.hpp"
 #include "mapping/analysis/worst_sections.hpp"
 #include "storage/exports/event_export.hpp"
@@ -18,13 +20,19 @@ struct WorstRows {
     std::vector<RankedSection> ranked{};
 };
 
+struct SectionRows {
+    std::vector<NamedSection> sections{};
+    std::vector<ClassedSection> classed{};
+};
+
 /// Name of an event that stays while it is there: its segment, place and kind.
 std::string id_of(const EventRecord& record) {
     const auto& columns = event_fields();
     std::string id = name_of(record.event.segment);
     for (const auto& column : columns) {
         if (column.name == "at_m" || column.name == "kind") {
-            id += "-" + plain_text(column.type, column.value(record)).value_or("");
+            id += '-';
+            id += plain_text(column.type, column.value(record)).value_or("");
         }
     }
     return id;
@@ -65,6 +73,28 @@ FeatureList event_features(const StoreReader& store) {
     for (const auto& record : *rows) {
         list.features.push_back(
             {.id = id_of(record), .line = {&record.at, 1}, .is_point = true, .row = &record});
+    }
+    return list;
+}
+
+const std::vector<FeatureColumn>& section_feature_columns() {
+    static const auto columns = feature_columns(section_columns());
+    return columns;
+}
+
+FeatureList section_features(const StoreReader& store, const SectionOptions& sections) {
+    const auto rows = std::make_shared<SectionRows>();
+    each_section(store, sections, {}, [&](const NamedSection& section) {
+        rows->sections.push_back(section);
+    });
+    const auto& classes = *class_table(store.settings().class_table);
+    FeatureList list{{}, rows};
+    rows->classed.reserve(rows->sections.size());
+    for (const auto& named : rows->sections) {
+        rows->classed.push_back({named, classes});
+        list.features.push_back({.id = fmt::format("{}", rows->classed.size()),
+                                 .line = named.section.line,
+                                 .row = &rows->classed.back()});
     }
     return list;
 }

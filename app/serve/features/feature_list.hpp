@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/query/section_options.hpp"
 #include "app/serve/features/feature.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
@@ -25,5 +26,12 @@ const std::vector<FeatureColumn>& event_feature_columns();
 
 /// Potholes and other events in the order of `export --events`.
 FeatureList event_features(const StoreReader& store);
+
+/// Columns of an agency's own sections (docs/reference/sections.md).
+const std::vector<FeatureColumn>& section_feature_columns();
+
+/// An agency's own sections in the order of their file, numbered from 1.
+/// \throws InputError  for an invalid file, and for roads that are not found.
+FeatureList section_features(const StoreReader& store, const SectionOptions& sections);
 
 } // namespace macadam

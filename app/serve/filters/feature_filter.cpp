@@ -3,6 +3,7 @@
 #include "app/serve/filters/cql2_like.hpp"
 #include "app/serve/filters/cql2_literals.hpp"
 #include "app/serve/filters/cql2_times.hpp"
+#include "app/serve/filters/filter_operand.hpp"
 #include "app/serve/filters/geometry_relation.hpp"
 #include "storage/text/case_folding.hpp"
 #include "storage/text/text.hpp"
@@ -24,78 +25,12 @@
 namespace macadam {
 namespace {
 
-/// Value of a feature; `std::nullopt` if it is unknown.
-template <typename Value>
-using Of = std::function<std::optional<Value>(const Feature&)>;
-
-using Truth = Of<bool>;
-using Number = Of<double>;
-using Text = Of<std::string>;
-using Time = Of<Cql2Span>;
-struct Place {
-    const Cql2Geometry* literal; ///< null: the feature's geometry
-};
-using Operand = std::variant<Truth, Number, Text, Time, Place>;
-
-constexpr std::array<std::string_view, 5> type_names{
-    "a truth value", "a number", "a text", "a time", "a geometry"};
-
-template <typename Value>
-Of<Value> constant(Value value) {
-    return [value = std::optional{std::move(value)}](const Feature&) { return value; };
-}
-
-/// Function of two values, unknown if one of them is.
-template <typename Result, typename Value, typename Function>
-Of<Result> of_both(Of<Value> a, Of<Value> b, Function function) {
-    return [a = std::move(a), b = std::move(b), function](
-               const Feature& feature) -> std::optional<Result> {
-        const auto left = a(feature);
-        if (!left) {
-            return std::nullopt;
-        }
-        const auto right = b(feature);
-        return right ? function(*left, *right) : std::nullopt;
-    };
-}
-
-// ------------------------------------------------------------------------------------ literals
-
-template <typename Value>
-const Value* cell_as(const Cell& cell) {
-    return std::get_if<Value>(&cell.value());
-}
-
-Operand column_operand(const FeatureColumn& column) {
-    using Kind = ColumnType::Kind;
-    switch (column.type.kind) {
-    case Kind::truth:
-        return Truth{[&column](const Feature& feature) -> std::optional<bool> {
-            const auto cell = column.value(feature.row);
-            const auto* const value = cell_as<bool>(cell);
-            return value == nullptr ? std::nullopt : std::optional{*value};
-        }};
-    case Kind::integer:
-    case Kind::real:
-        return Number{[&column](const Feature& feature) -> std::optional<double> {
-            const auto shown = plain_text(column.type, column.value(feature.row));
-            return shown ? parse_number(*shown) : std::nullopt;
-        }};
-    case Kind::day:
-        return Time{[&column](const Feature& feature) -> std::optional<Cql2Span> {
-            const auto day = plain_text(column.type, column.value(feature.row));
-            if (!day) {
-                return std::nullopt;
-            }
-            const auto instant = parse_cql2_instant(*day);
-            return Cql2Span{instant, instant};
-        }};
-    default:
-        return Text{[&column](const Feature& feature) {
-            return plain_text(column.type, column.value(feature.row));
-        }};
-    }
-}
+using Truth = FilterTruth;
+using Number = FilterNumber;
+using Text = FilterText;
+using Time = FilterTime;
+using Place = FilterPlace;
+using Operand = FilterOperand;
 
 /// Makes operands of expressions over columns.
 class Compiler {
@@ -113,8 +48,8 @@ private:
         if (auto* const found = std::get_if<Wanted>(&operand)) {
             return std::move(*found);
         }
-        throw Cql2Error{
-            fmt::format("there is {}, expected {}", type_names.at(operand.index()), expected)};
+        throw Cql2Error{fmt::format(
+            "there is {}, expected {}", filter_operand_names.at(operand.index()), expected)};
     }
 
     Operand property(const std::string& name) const {
@@ -293,7 +228,9 @@ private:
         return std::visit(
             [](const auto& value) -> Truth {
                 if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Place>) {
-                    return constant(false);
+                    return [is_of_feature = value.literal == nullptr](const Feature& feature) {
+                        return std::optional{is_of_feature && feature.line.empty()};
+                    };
                 } else {
                     return [value](const Feature& feature) {
                         return std::optional{!value(feature).has_value()};
@@ -341,7 +278,7 @@ private:
     }
 
     template <typename Value>
-    static Truth ordered(std::string_view op, Of<Value> a, Of<Value> b) {
+    static Truth ordered(std::string_view op, ValueOf<Value> a, ValueOf<Value> b) {
         const auto test = [is_less = op.find('<') != std::string_view::npos,
                            is_more = op.find('>') != std::string_view::npos,
                            is_equal = op.find('=') !=
@@ -379,8 +316,8 @@ private:
         }
         if (a.index() != b.index() || std::holds_alternative<Place>(a)) {
             throw Cql2Error{fmt::format("{} cannot be compared with {}",
-                                        type_names.at(a.index()),
-                                        type_names.at(b.index()))};
+                                        filter_operand_names.at(a.index()),
+                                        filter_operand_names.at(b.index()))};
         }
         if (auto* const numbers = std::get_if<Number>(&a)) {
             return ordered(op, std::move(*numbers), std::get<Number>(std::move(b)));
@@ -418,8 +355,11 @@ private:
         const auto b = as<Place>(operand(expression.args[1]), "a geometry");
         const auto relation =
             std::make_shared<const GeometryRelation>(expression.op, a.literal, b.literal, crs_);
-        return
-            [relation](const Feature& feature) { return std::optional{relation->holds(feature)}; };
+        return [relation, is_of_feature = a.literal == nullptr || b.literal == nullptr](
+                   const Feature& feature) -> std::optional<bool> {
+            return is_of_feature && feature.line.empty() ? std::nullopt
+                                                         : std::optional{relation->holds(feature)};
+        };
     }
 
     std::span<const FeatureColumn> columns_;

@@ -107,7 +107,10 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
     export_site(store,
                 {},
                 folder->path() / "site",
-                {.title = file_.stem().string(), .left_hand = false, .tiles = {}},
+                {.title = file_.stem().string(),
+                 .left_hand = false,
+                 .tiles = {.min_zoom = TileSet::min_zoom, .max_zoom = TileSet::max_zoom},
+                 .served_version = version},
                 Console{Verbosity::quiet, stop});
     const std::lock_guard lock{mutex_};
     if (!was_dropped_) {

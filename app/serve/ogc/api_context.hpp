@@ -13,8 +13,10 @@ namespace macadam {
 struct ApiContext {
     const HttpRequest& request;
     const StoreReader& store;
-    const std::string& version; ///< of the database
-    std::string base;           ///< address of the server, without a slash at its end
+    const std::string& version;  ///< of the database
+    std::string base;            ///< address of the server, without a slash at its end
+    bool is_operator = false;    ///< a token says so
+    std::string trips_version{}; ///< of the trips, published or not; for operators
 };
 
 /// Link of a page (RFC 8288).

@@ -1,10 +1,8 @@
 #include "app/serve/ogc/api_description.hpp"
 
 #include "app/serve/features/feature.hpp"
-#include "app/serve/ogc/features_api.hpp"
 #include "app/serve/ogc/items_query.hpp"
 #include "app/serve/trips/trips_description.hpp"
-#include "storage/exports/export.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +41,8 @@ std::string parameter_text(std::string_view name,
 constexpr std::string_view text_schema = R"({"type":"string"})";
 constexpr std::string_view uri_schema = R"({"type":"string","format":"uri"})";
 
-std::vector<std::string> items_parameters() {
+/// Parameters of .../items, with the columns of a collection.
+std::vector<std::string> items_parameters(const Collection& collection) {
     std::vector<std::string> parameters{
         parameter_text("limit",
                        "query",
@@ -76,7 +75,7 @@ std::vector<std::string> items_parameters() {
             "Language of filter"),
         parameter_text("filter-crs", "query", uri_schema, "Coordinate reference system of filter"),
         parameter_text("f", "query", R"({"type":"string","enum":["json","html"]})", "Format")};
-    for (const auto& column : feature_columns(segment_columns())) {
+    for (const auto& column : collection.columns()) {
         const bool is_number = column.type.kind == ColumnType::Kind::integer ||
                                column.type.kind == ColumnType::Kind::real;
         parameters.push_back(parameter_text(column.name,
@@ -137,11 +136,11 @@ std::string operation_text(std::string_view id,
     return fmt::format(R"({{"get":{}}})", operation.text());
 }
 
-std::string paths_text() {
-    const auto collection = [] {
+std::string paths_text(const std::vector<const Collection*>& collections) {
+    const auto collection = [&] {
         std::vector<std::string> names;
-        for (const auto id : collection_ids()) {
-            names.emplace_back(id);
+        for (const auto* const each : collections) {
+            names.emplace_back(each->id);
         }
         return parameter_text(
             "collectionId",
@@ -150,7 +149,7 @@ std::string paths_text() {
             "Collection");
     }();
     const auto feature = parameter_text("featureId", "path", text_schema, "Id of the feature");
-    auto of_items = items_parameters();
+    auto of_items = items_parameters(*collections.front());
     of_items.insert(of_items.begin(), collection);
     constexpr std::string_view json = "application/json", geojson = "application/geo+json";
     JsonObject paths;
@@ -184,34 +183,49 @@ std::string paths_text() {
     const auto of_tile = [&](std::string_view name) {
         return parameter_text(name, "path", R"({"type":"integer","minimum":0})", "Of the tile");
     };
-    const std::vector<std::string> tile_parameters{
+    const std::vector<std::string> of_tile_set{
         matrix_set,
         of_tile("tileMatrix"),
         of_tile("tileRow"),
         of_tile("tileCol"),
         parameter_text("v", "query", text_schema, "Version; a tile of it never changes")};
-    constexpr std::string_view mvt = "application/vnd.mapbox-vector-tile";
+    auto of_vector_tile = of_tile_set;
+    of_vector_tile.push_back(
+        parameter_text("f",
+                       "query",
+                       R"({"type":"string","enum":["mvt","png"],"default":"mvt"})",
+                       "Vector or picture tile"));
     constexpr std::string_view of_set = "/{tileMatrixSetId}",
                                of_matrix = "/{tileMatrix}/{tileRow}/{tileCol}";
-    for (const auto& [place, id] :
-         {std::pair{"/tiles", "dataset"}, std::pair{"/collections/segments/tiles", "segments"}}) {
-        const auto name = fmt::format("{}.vector.", id);
-        add(place, name + "getTileSetsList", "Tile sets", json);
+    struct Tiles {
+        std::string_view place, name, type;
+    };
+    constexpr std::string_view mvt = "application/vnd.mapbox-vector-tile";
+    for (const auto& [place, name, type] :
+         {Tiles{"/tiles", "dataset.vector.", mvt},
+          Tiles{"/collections/segments/tiles", "segments.vector.", mvt},
+          Tiles{"/map/tiles", "dataset.map.", "image/png"}}) {
+        add(place, fmt::format("{}getTileSetsList", name), "Tile sets", json);
         add(fmt::format("{}{}", place, of_set),
-            name + "getTileSet",
+            fmt::format("{}getTileSet", name),
             "A tile set",
             json,
             {matrix_set});
         add(fmt::format("{}{}{}", place, of_set, of_matrix),
-            name + "getTile",
-            "A vector tile",
-            mvt,
-            tile_parameters);
+            fmt::format("{}getTile", name),
+            "A tile",
+            type,
+            type == mvt ? of_vector_tile : of_tile_set);
     }
     add("/tileMatrixSets", "matrixSets", "Tile matrix sets", json);
     add("/tileMatrixSets/{tileMatrixSetId}", "matrixSet", "A tile matrix set", json, {matrix_set});
     add("/tiles.json", "tileJson", "TileJSON 3.0", json);
     add("/health", "health", "Whether the server is well", json);
+    for (const auto& each : known_collections()) {
+        if (each.is_of_operator) {
+            add_trip_collection_paths(paths, items_parameters(each));
+        }
+    }
     add_trip_paths(paths);
     return paths.text();
 }
@@ -237,6 +251,10 @@ HttpResponse landing_page(const ApiContext& context) {
                    "http://www.opengis.net/def/rel/ogc/1.0/tilesets-vector",
                    "application/json",
                    "Vector tiles"},
+                  {base + "/map/tiles",
+                   "http://www.opengis.net/def/rel/ogc/1.0/tilesets-map",
+                   "application/json",
+                   "Picture tiles"},
                   {base + "/tileMatrixSets",
                    "http://www.opengis.net/def/rel/ogc/1.0/tiling-schemes",
                    "application/json",
@@ -275,13 +293,15 @@ HttpResponse conformance_page(const ApiContext& context) {
         "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/dataset-tilesets",
         "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/geodata-tilesets",
         "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/mvt",
+        "http://www.opengis.net/spec/ogcapi-tiles-1/1.0/conf/png",
         "http://www.opengis.net/spec/tms/2.0/conf/tilematrixset"};
     JsonObject page;
     page.add("conformsTo", JsonRaw{json_string_array(classes)});
     return api_page(context, "Conformance", page.text());
 }
 
-HttpResponse openapi_page(const ApiContext& context) {
+HttpResponse openapi_page(const ApiContext& context,
+                          const std::vector<const Collection*>& collections) {
     expect_parameters(context.request);
     const auto text = fmt::format(
         R"({{"openapi":"3.0.3","info":{{"title":{},"version":"{}","license":{{"name":{}}}}},)"
@@ -294,7 +314,7 @@ HttpResponse openapi_page(const ApiContext& context) {
                       ? "of the operator"
                       : context.store.settings().attribution),
         context.base,
-        paths_text(),
+        paths_text(collections),
         schemas,
         trip_security_schemes);
     return api_page(context, "API", text, openapi_type);

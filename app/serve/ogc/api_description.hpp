@@ -1,6 +1,9 @@
 #pragma once
 
 #include "app/serve/ogc/api_context.hpp"
+#include "app/serve/ogc/collections.hpp"
+
+#include <vector>
 
 namespace macadam {
 
@@ -11,6 +14,8 @@ HttpResponse landing_page(const ApiContext& context);
 HttpResponse conformance_page(const ApiContext& context);
 
 /// Definition of the API, OpenAPI 3.0.
-HttpResponse openapi_page(const ApiContext& context);
+/// \param collections  that everybody sees
+HttpResponse openapi_page(const ApiContext& context,
+                          const std::vector<const Collection*>& collections);
 
 } // namespace macadam

@@ -1,6 +1,7 @@
 #include "app/serve/ogc/features_api.hpp"
 
 #include "app/cli/arguments.hpp"
+#include "app/serve/features/trip_features.hpp"
 #include "app/serve/ogc/queryables.hpp"
 #include "estimator/common/error.hpp"
 #include "mapping/geometry/antimeridian.hpp"
@@ -13,38 +14,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <utility>
 
 namespace macadam {
 namespace {
 
 constexpr std::string_view geojson_type = "application/geo+json";
 constexpr std::string_view schema_type = "application/schema+json";
-
-struct CollectionText {
-    std::string_view id, title, description;
-};
-constexpr std::array collection_texts{
-    CollectionText{"segments",
-                   "Road segments",
-                   "About 20 m of road in one direction with its roughness (IRI, mm/m), the 90 % "
-                   "interval, passes and cars"},
-    CollectionText{"worst", "Worst sections", "Sections of poor road, roughest first"},
-    CollectionText{"events", "Potholes and other events", "Single defects, fused over passes"}};
-
-const CollectionText* text_of(std::string_view id) {
-    const auto* const found = std::ranges::find(collection_texts, id, &CollectionText::id);
-    return found == collection_texts.end() ? nullptr : found;
-}
-
-const std::vector<FeatureColumn>& columns_of(std::string_view id) {
-    static const auto segments = feature_columns(segment_columns());
-    return id == "segments" ? segments
-           : id == "worst"  ? worst_feature_columns()
-                            : event_feature_columns();
-}
 
 HttpResponse no_collection(std::string_view id) {
     return http_problem(404, fmt::format("there is no collection '{}'", id));
@@ -64,6 +43,15 @@ struct Page {
     std::size_t matched = 0;
     std::string next; ///< "after=..." or "offset=..."; "" = the last page
 };
+
+/// Keeps caches of several clients from handing on what depends on a token.
+HttpResponse for_its_reader(const ApiContext& context, HttpResponse response) {
+    if (context.is_operator) {
+        response.cache_control = "no-store";
+        response.etag.clear();
+    }
+    return response;
+}
 
 HttpResponse page_response(const ApiContext& context,
                            std::string_view id,
@@ -92,21 +80,21 @@ HttpResponse page_response(const ApiContext& context,
         .add("features", JsonRaw{json_array(page.features)});
     auto response = api_page(context, std::string{id}, collection.text(), geojson_type);
     response.headers.emplace_back("Content-Crs", fmt::format("<{}>", uri_of(query.crs)));
-    return response;
+    return for_its_reader(context, std::move(response));
 }
 
 HttpResponse feature_response(const ApiContext& context,
-                              std::string_view id,
+                              const Collection& collection,
                               const Feature& feature,
                               CoordinateReference crs) {
-    const auto here = fmt::format("{}/collections/{}", context.base, id);
+    const auto here = fmt::format("{}/collections/{}", context.base, collection.id);
     const auto links = links_text(
         {{fmt::format("{}/items/{}", here, percent_encoded(feature.id)), "self", geojson_type},
          {here, "collection", "application/json"}});
     auto response = api_page(
-        context, feature.id, feature_text(feature, columns_of(id), crs, links), geojson_type);
+        context, feature.id, feature_text(feature, collection.columns(), crs, links), geojson_type);
     response.headers.emplace_back("Content-Crs", fmt::format("<{}>", uri_of(crs)));
-    return response;
+    return for_its_reader(context, std::move(response));
 }
 
 Area area_of(const GeoBox& box) {
@@ -117,7 +105,8 @@ Area area_of(const GeoBox& box) {
     return Area{polygons};
 }
 
-/// Tests whether the days between the first and the last pass of a feature meet a period.
+/// Tests whether the days between the first and the last pass of a feature, or its one day, meet a
+/// period.
 bool is_seen_in(const Feature& feature,
                 std::span<const FeatureColumn> columns,
                 const Period& period) {
@@ -126,7 +115,8 @@ bool is_seen_in(const Feature& feature,
         return column == columns.end() ? std::nullopt
                                        : plain_text(column->type, column->value(feature.row));
     };
-    const auto first = day("first_seen"), last = day("last_seen");
+    const auto only = day("day");
+    const auto first = only ? only : day("first_seen"), last = only ? only : day("last_seen");
     return first && last && (!period.until_ms || *first <= utc_day(*period.until_ms - 1)) &&
            (!period.from_ms || *last >= utc_day(*period.from_ms));
 }
@@ -145,18 +135,27 @@ void expect_known_period(const StoreReader& store, const ItemsQuery& query) {
 
 } // namespace
 
-std::vector<std::string_view> collection_ids() {
-    std::vector<std::string_view> ids;
-    for (const auto& text : collection_texts) {
-        ids.push_back(text.id);
-    }
-    return ids;
-}
-
 // -------------------------------------------------------------------------------- collections
 
-std::string FeaturesApi::collection_text(const ApiContext& context, std::string_view id) {
-    const auto& [name, title, description] = *text_of(id);
+std::vector<const Collection*> FeaturesApi::collections_for(bool is_operator) const {
+    std::vector<const Collection*> shown;
+    for (const auto& collection : known_collections()) {
+        const bool is_there = collection.id != "sections" || sections_options_;
+        if (is_there && (is_operator || !collection.is_of_operator)) {
+            shown.push_back(&collection);
+        }
+    }
+    return shown;
+}
+
+const Collection* FeaturesApi::find(const ApiContext& context, std::string_view id) const {
+    const auto shown = collections_for(context.is_operator);
+    const auto found = std::ranges::find(shown, id, &Collection::id);
+    return found == shown.end() ? nullptr : *found;
+}
+
+std::string FeaturesApi::collection_text(const ApiContext& context, const Collection& described) {
+    const auto& id = described.id;
     const auto extent = extent_.get(context.version, [&] {
         return Extent{context.store.map_box(), context.store.seen()};
     });
@@ -174,8 +173,8 @@ std::string FeaturesApi::collection_text(const ApiContext& context, std::string_
     }
     JsonObject collection;
     collection.add("id", std::string{id})
-        .add("title", std::string{title})
-        .add("description", std::string{description})
+        .add("title", std::string{described.title})
+        .add("description", std::string{described.description})
         .add("attribution", context.store.settings().attribution)
         .add("itemType", "feature")
         .add("extent",
@@ -200,8 +199,8 @@ std::string FeaturesApi::collection_text(const ApiContext& context, std::string_
 HttpResponse FeaturesApi::collections(const ApiContext& context) {
     expect_parameters(context.request);
     std::vector<std::string> texts;
-    for (const auto id : collection_ids()) {
-        texts.push_back(collection_text(context, id));
+    for (const auto* const collection : collections_for(context.is_operator)) {
+        texts.push_back(collection_text(context, *collection));
     }
     JsonObject page;
     page.add(
@@ -212,41 +211,45 @@ HttpResponse FeaturesApi::collections(const ApiContext& context) {
              JsonRaw{json_string_array(
                  {coordinate_reference_uris.begin(), coordinate_reference_uris.end()})})
         .add("collections", JsonRaw{json_array(texts)});
-    return api_page(context, "Collections", page.text());
+    return for_its_reader(context, api_page(context, "Collections", page.text()));
 }
 
 HttpResponse FeaturesApi::collection(const ApiContext& context, std::string_view id) {
     expect_parameters(context.request);
-    return text_of(id) == nullptr
-               ? no_collection(id)
-               : api_page(context, std::string{text_of(id)->title}, collection_text(context, id));
+    const auto* const found = find(context, id);
+    return found == nullptr ? no_collection(id)
+                            : for_its_reader(context,
+                                             api_page(context,
+                                                      std::string{found->title},
+                                                      collection_text(context, *found)));
 }
 
-HttpResponse FeaturesApi::queryables(const ApiContext& context, std::string_view id) {
+HttpResponse FeaturesApi::queryables(const ApiContext& context, std::string_view id) const {
     expect_parameters(context.request);
-    const auto* const text = text_of(id);
-    return text == nullptr
+    const auto* const found = find(context, id);
+    return found == nullptr
                ? no_collection(id)
                : api_page(
                      context,
-                     std::string{text->title},
-                     queryables_text(text->title,
+                     std::string{found->title},
+                     queryables_text(found->title,
                                      fmt::format("{}/collections/{}/queryables", context.base, id),
-                                     columns_of(id),
-                                     id == "events"),
+                                     found->columns(),
+                                     found->geometry),
                      schema_type);
 }
 
 // -------------------------------------------------------------------------------------- items
 
 HttpResponse FeaturesApi::items(const ApiContext& context, std::string_view id) {
-    return text_of(id) == nullptr ? no_collection(id)
-           : id == "segments"     ? segment_items(context)
-                                  : list_items(context, id);
+    const auto* const found = find(context, id);
+    return found == nullptr   ? no_collection(id)
+           : id == "segments" ? segment_items(context, *found)
+                              : list_items(context, *found);
 }
 
-HttpResponse FeaturesApi::segment_items(const ApiContext& context) {
-    const auto& columns = columns_of("segments");
+HttpResponse FeaturesApi::segment_items(const ApiContext& context, const Collection& collection) {
+    const auto& columns = collection.columns();
     const auto query = parse_items_query(context.request, columns);
     expect_known_period(context.store, query);
     const auto keys = selections_.keys(context.store, context.version, query);
@@ -272,30 +275,44 @@ HttpResponse FeaturesApi::segment_items(const ApiContext& context) {
     if (first + count < keys->size()) {
         page.next = "after=" + percent_encoded(name_of(shown.back()));
     }
-    return page_response(context, "segments", query, page);
+    return page_response(context, collection.id, query, page);
+}
+
+FeatureList FeaturesApi::sections(const StoreReader& store) const {
+    try {
+        return section_features(store, *sections_options_);
+    } catch (const InputError& error) {
+        if (std::string_view{error.what()}.starts_with(store.file().string())) {
+            throw;
+        }
+        throw std::runtime_error{error.what()}; // it names a file of the operator, for him alone
+    }
 }
 
 std::shared_ptr<const FeatureList> FeaturesApi::list(const ApiContext& context,
                                                      std::string_view id) {
-    return id == "worst"
-               ? worst_.get(context.version, [&] { return worst_features(context.store); })
-               : events_.get(context.version, [&] { return event_features(context.store); });
+    const auto& store = context.store;
+    return id == "worst"      ? worst_.get(context.version, [&] { return worst_features(store); })
+           : id == "sections" ? sections_.get(context.version, [&] { return sections(store); })
+           : id == "trips"
+               ? trips_.get(context.trips_version, [&] { return trip_features(store.file()); })
+               : events_.get(context.version, [&] { return event_features(store); });
 }
 
-HttpResponse FeaturesApi::list_items(const ApiContext& context, std::string_view id) {
-    const auto& columns = columns_of(id);
+HttpResponse FeaturesApi::list_items(const ApiContext& context, const Collection& collection) {
+    const auto& columns = collection.columns();
     const auto query = parse_items_query(context.request, columns);
     if (query.after) {
         throw UsageError{"after is for segments; pages of this collection have an offset"};
     }
-    const auto all = list(context, id);
+    const auto all = list(context, collection.id);
     const auto area = query.box ? std::optional{area_of(*query.box)} : std::nullopt;
     Page page;
     TimeLimit limit;
     for (const auto& feature : all->features) {
         limit.check();
         const bool fits =
-            (!area || area->intersects(feature.line)) &&
+            (!area || (!feature.line.empty() && area->intersects(feature.line))) &&
             (!query.period || is_seen_in(feature, columns, *query.period)) &&
             std::ranges::all_of(query.tests, [&](const auto& test) { return test(feature); });
         if (fits && page.matched++ >= query.offset && page.features.size() < query.limit) {
@@ -305,21 +322,22 @@ HttpResponse FeaturesApi::list_items(const ApiContext& context, std::string_view
     if (query.offset + page.features.size() < page.matched && !page.features.empty()) {
         page.next = fmt::format("offset={}", query.offset + page.features.size());
     }
-    return page_response(context, id, query, page);
+    return page_response(context, collection.id, query, page);
 }
 
 HttpResponse
 FeaturesApi::item(const ApiContext& context, std::string_view id, const std::string& feature_id) {
     expect_parameters(context.request, {"crs"});
     const auto crs = parse_crs(context.request);
-    if (text_of(id) == nullptr) {
+    const auto* const collection = find(context, id);
+    if (collection == nullptr) {
         return no_collection(id);
     }
     if (id != "segments") {
         const auto all = list(context, id);
         const auto found = std::ranges::find(all->features, feature_id, &Feature::id);
         return found == all->features.end() ? no_feature(feature_id)
-                                            : feature_response(context, id, *found, crs);
+                                            : feature_response(context, *collection, *found, crs);
     }
     SegmentFilter filter;
     try {
@@ -333,7 +351,7 @@ FeaturesApi::item(const ApiContext& context, std::string_view id, const std::str
         const ClassedSegment row{record, classes};
         response = feature_response(
             context,
-            id,
+            *collection,
             {.id = name_of(record.segment.key), .line = record.segment.line, .row = &row},
             crs);
     });

@@ -157,7 +157,8 @@ Period parse_datetime(const std::string& text) {
     }
     const Period period{border(text.substr(0, slash), false), border(text.substr(slash + 1), true)};
     const bool is_open = !period.from_ms && !period.until_ms;
-    if (is_open || (period.from_ms && period.until_ms && *period.from_ms > *period.until_ms)) {
+    const auto last_begins_ms = border(text.substr(slash + 1), false);
+    if (is_open || (period.from_ms && last_begins_ms && *period.from_ms > *last_begins_ms)) {
         throw UsageError{
             fmt::format("datetime is {}, expected a beginning before an end", in_quotes(text))};
     }

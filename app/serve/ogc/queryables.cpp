@@ -42,12 +42,13 @@ std::string column_schema(const ColumnType& type) {
 std::string queryables_text(std::string_view title,
                             std::string_view address,
                             std::span<const FeatureColumn> columns,
-                            bool are_points) {
-    JsonObject geometry;
-    geometry.add("x-ogc-role", "primary-geometry")
-        .add("format", are_points ? "geometry-point" : "geometry-linestring");
+                            std::string_view geometry) {
     JsonObject properties;
-    properties.add(geometry_property, JsonRaw{geometry.text()});
+    if (!geometry.empty()) {
+        JsonObject schema;
+        schema.add("x-ogc-role", "primary-geometry").add("format", std::string{geometry});
+        properties.add(geometry_property, JsonRaw{schema.text()});
+    }
     for (const auto& column : columns) {
         if (is_queryable(column)) {
             auto schema = schema_of(column.type);

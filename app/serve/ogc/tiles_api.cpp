@@ -1,7 +1,9 @@
 #include "app/serve/ogc/tiles_api.hpp"
 
+#include "app/cli/arguments.hpp"
 #include "render/tiles/mvt_tile.hpp"
 #include "storage/text/json.hpp"
+#include "storage/text/text.hpp"
 
 #include <fmt/format.h>
 
@@ -19,10 +21,17 @@ constexpr std::string_view quad = "WebMercatorQuad";
 constexpr std::string_view quad_uri =
     "http://www.opengis.net/def/tilematrixset/OGC/1.0/WebMercatorQuad";
 constexpr std::string_view mercator_uri = "http://www.opengis.net/def/crs/EPSG/0/3857";
-constexpr std::string_view tile_type = "application/vnd.mapbox-vector-tile";
+constexpr std::string_view vector_type = "application/vnd.mapbox-vector-tile";
+constexpr std::string_view picture_type = "image/png";
 
 HttpResponse not_ready() {
     auto response = http_problem(503, "the tiles are being made");
+    response.headers.emplace_back("Retry-After", "2");
+    return response;
+}
+
+HttpResponse busy_drawing() {
+    auto response = http_problem(503, "the picture cannot be drawn now");
     response.headers.emplace_back("Retry-After", "2");
     return response;
 }
@@ -36,6 +45,22 @@ std::optional<std::uint32_t> parse_number(std::string_view text) {
     const auto* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, number);
     return error == std::errc{} && stop == end ? std::optional{number} : std::nullopt;
+}
+
+/// Tests for the path of picture tiles.
+bool is_of_pictures(const HttpRequest& request) {
+    return request.path.starts_with("/map/");
+}
+
+/// Parses zoom, row and column; `std::nullopt` for what is no tile of the matrices.
+std::optional<TileId> parse_tile(const std::vector<std::string>& zoom_row_column) {
+    const auto zoom = parse_number(zoom_row_column[0]);
+    const auto row = parse_number(zoom_row_column[1]);
+    const auto column = parse_number(zoom_row_column[2]);
+    const bool is_there = zoom && row && column && *zoom <= TileSet::max_zoom &&
+                          *row < (1U << *zoom) && *column < (1U << *zoom);
+    return is_there ? std::optional{TileId{static_cast<std::uint8_t>(*zoom), *column, *row}}
+                    : std::nullopt;
 }
 
 /// Address of the tile sets that a request asks for: of the dataset or of a collection.
@@ -53,7 +78,7 @@ std::string tile_set_text(const ApiContext& context, const TileSet& tiles) {
     const auto& [west, south, east, north] = tiles.box();
     JsonObject set;
     set.add("title", context.store.file().stem().string())
-        .add("dataType", "vector")
+        .add("dataType", is_of_pictures(context.request) ? "map" : "vector")
         .add("crs", std::string{mercator_uri})
         .add("tileMatrixSetURI", std::string{quad_uri})
         .add("boundingBox",
@@ -77,7 +102,7 @@ std::string tile_set_text(const ApiContext& context, const TileSet& tiles) {
         text.size() - 2,
         fmt::format(R"(,{{"href":{},"rel":"item","type":"{}","templated":true}})",
                     json_text(template_of(context, tiles, "{tileMatrix}/{tileRow}/{tileCol}")),
-                    tile_type));
+                    is_of_pictures(context.request) ? picture_type : vector_type));
     return text;
 }
 
@@ -102,20 +127,29 @@ tile_set_page(const ApiContext& context, const TileSet* tiles, const std::string
                               : api_page(context, "Tiles", tile_set_text(context, *tiles));
 }
 
+bool is_for_picture_tile(const HttpRequest& request) {
+    constexpr std::string_view tiles = "/tiles/WebMercatorQuad/";
+    return request.path.find(tiles) != std::string::npos &&
+           (is_of_pictures(request) || request.parameter("f") == "png");
+}
+
 HttpResponse tile_response(const ApiContext& context,
                            const TileSet* tiles,
+                           PictureTiles& pictures,
                            const std::string& matrix_set,
                            const std::vector<std::string>& zoom_row_column) {
     expect_parameters(context.request, {"v"});
+    const bool is_picture = is_for_picture_tile(context.request);
+    const std::string expected_format = is_of_pictures(context.request) ? "png" : "mvt or png";
+    if (const auto format = context.request.parameter("f");
+        format && *format != "png" && (*format != "mvt" || is_of_pictures(context.request))) {
+        throw UsageError{fmt::format("f is {}, expected {}", in_quotes(*format), expected_format)};
+    }
     if (matrix_set != quad) {
         return no_matrix_set();
     }
-    const auto zoom = parse_number(zoom_row_column[0]);
-    const auto row = parse_number(zoom_row_column[1]);
-    const auto column = parse_number(zoom_row_column[2]);
-    const bool is_there = zoom && row && column && *zoom <= TileSet::max_zoom &&
-                          *row < (1U << *zoom) && *column < (1U << *zoom);
-    if (!is_there) {
+    const auto id = parse_tile(zoom_row_column);
+    if (!id) {
         return http_problem(404,
                             fmt::format("there is no such tile, expected zoom 0 to {}, a row and a "
                                         "column of it",
@@ -126,12 +160,25 @@ HttpResponse tile_response(const ApiContext& context,
     }
     const bool is_versioned = context.request.parameter("v") == tiles->version();
     HttpResponse response{
-        .type = std::string{tile_type},
-        .etag = fmt::format("{}-{}-{}-{}", tiles->version(), *zoom, *row, *column),
+        .type = std::string{is_picture ? picture_type : vector_type},
+        .etag = fmt::format(
+            "{}-{}-{}-{}{}", tiles->version(), id->zoom, id->y, id->x, is_picture ? "-p" : ""),
         .cache_control = is_versioned ? "public, max-age=31536000, immutable" : "no-cache"};
-    if (auto bytes = tiles->tile({static_cast<std::uint8_t>(*zoom), *column, *row})) {
-        response.body = *std::move(bytes);
-        response.is_gzipped = true;
+    if (!is_picture) {
+        if (auto bytes = tiles->tile(*id)) {
+            response.body = *std::move(bytes);
+            response.is_gzipped = true;
+        } else {
+            response.status = 204;
+        }
+        return response;
+    }
+    const auto picture = pictures.tile(tiles->version(), *id);
+    if (!picture) {
+        return busy_drawing();
+    }
+    if (*picture) {
+        response.body = **picture;
     } else {
         response.status = 204;
     }

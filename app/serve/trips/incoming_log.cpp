@@ -70,13 +70,19 @@ bool has_free(const std::filesystem::path& folder, std::uint64_t bytes) {
 IncomingLog::IncomingLog(const std::filesystem::path& spool,
                          Upload upload,
                          std::uint64_t min_free_bytes)
-    : spool_{spool}, min_free_bytes_{min_free_bytes}, upload_{std::move(upload)},
-      file_{upload_.file_in(spool), readable_by_owner} {}
+    : spool_{spool}, min_free_bytes_{min_free_bytes}, upload_{std::move(upload)} {}
+
+AtomicFile& IncomingLog::file() {
+    if (!file_) {
+        file_.emplace(upload_.file_in(spool_), readable_by_owner);
+    }
+    return *file_;
+}
 
 void IncomingLog::add(std::string_view bytes) {
     upload_.bytes += static_cast<std::int64_t>(bytes.size());
     hash_.add(bytes);
-    file_.write(bytes);
+    file().write(bytes);
     constexpr std::int64_t look_every = 256 * 1024; // bytes
     if (upload_.bytes - looked_at_bytes_ >= look_every) {
         looked_at_bytes_ = upload_.bytes;

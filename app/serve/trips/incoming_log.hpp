@@ -26,7 +26,6 @@ bool has_free(const std::filesystem::path& folder, std::uint64_t bytes);
 class IncomingLog final : public HttpBody {
 public:
     /// \param min_free_bytes  on the disk, whatever others send at the same time
-    /// \throws InputError  if the file cannot be made.
     IncomingLog(const std::filesystem::path& spool, Upload upload, std::uint64_t min_free_bytes);
 
     /// \throws InputError  if the disk has less, or cannot be written.
@@ -36,14 +35,16 @@ public:
     std::string sha256() { return hash_.hex(); }
 
     const Upload& upload() const { return upload_; }
-    AtomicFile& file() { return file_; }
+
+    /// Its file, which is made with the first bytes: a disk may take its time for it.
+    AtomicFile& file();
 
 private:
     std::filesystem::path spool_;
     std::uint64_t min_free_bytes_;
     std::int64_t looked_at_bytes_ = 0; ///< received when the disk was last looked at
     Upload upload_;                    ///< its `bytes` are those received
-    AtomicFile file_;
+    std::optional<AtomicFile> file_;
     Sha256 hash_;
 };
 

@@ -143,11 +143,17 @@ std::optional<HttpResponse> TripsApi::refused_rate(const HttpRequest& request,
     return wait ? std::optional{later(429, "too many requests", *wait)} : std::nullopt;
 }
 
-std::optional<HttpResponse> TripsApi::refused_reading(const HttpRequest& request) {
+std::optional<HttpResponse> TripsApi::refused_reading(const HttpRequest& request, Readers readers) {
     try {
         auto* const uploads = opened(of_network_);
+        if (uploads == nullptr && readers == Readers::operator_) {
+            return http_problem(404, "there is no such page");
+        }
         const auto text = token_in(request.header("authorization"));
         const auto token = uploads == nullptr ? std::nullopt : find_token(*uploads, text, now_ms());
+        if (token && readers == Readers::operator_ && token->scope != TokenScope::operator_) {
+            return http_problem(403, "this is for tokens of scope operator");
+        }
         if (token) {
             return token->scope != TokenScope::upload
                        ? std::nullopt
@@ -236,12 +242,31 @@ HttpAdmission TripsApi::admit_upload(const HttpRequest& request,
 
 // ------------------------------------------------------------------------------------ workers
 
+bool TripsApi::is_of_operator(const HttpRequest& request) {
+    const auto text = token_in(request.header("authorization"));
+    if (text.empty()) {
+        return false;
+    }
+    auto& [mutex, connection] = of_readers_;
+    const std::scoped_lock lock{mutex};
+    try {
+        auto* const uploads = opened(connection);
+        const auto token = uploads == nullptr ? std::nullopt : find_token(*uploads, text, now_ms());
+        return token && token->scope == TokenScope::operator_;
+    } catch (const InputError&) {
+        connection.reset();
+        return false;
+    }
+}
+
 HttpResponse TripsApi::answer(const HttpRequest& request) {
     const auto sha256 = hash_in(request.path);
     const auto route = route_of(request.path);
-    const std::scoped_lock lock{mutex_};
+    const bool reads = request.method == "GET" || request.method == "HEAD";
+    auto& [mutex, connection] = reads ? of_readers_ : of_writers_;
+    const std::scoped_lock lock{mutex};
     try {
-        auto* const uploads = opened(uploads_);
+        auto* const uploads = opened(connection);
         if (uploads != nullptr && request.path == tokens_path) {
             return routed(accept_invitation(*uploads, request), route);
         }
@@ -257,7 +282,7 @@ HttpResponse TripsApi::answer(const HttpRequest& request) {
                                               : one(*uploads, request, sha256, *token),
                       route);
     } catch (const InputError&) {
-        uploads_.reset();
+        connection.reset();
         throw;
     }
 }
@@ -287,10 +312,17 @@ HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request
 }
 
 HttpResponse TripsApi::accept_invitation(Database& uploads, const HttpRequest& request) {
-    const auto token =
-        take_invitation(uploads, token_in(request.header("authorization")), now_ms());
-    return token ? json_response(201, fmt::format(R"({{"token":"{}"}})", *token))
-                 : http_problem(401, "the invitation was accepted before, has expired or is none");
+    try {
+        const auto token =
+            take_invitation(uploads, token_in(request.header("authorization")), now_ms());
+        return token ? json_response(201, fmt::format(R"({{"token":"{}"}})", *token))
+                     : http_problem(401,
+                                    "the invitation was accepted before, has expired or is none");
+    } catch (const OtherScope&) { // its name got tokens of another scope meanwhile
+        return http_problem(409,
+                            "the name of this invitation now has tokens of another scope; ask the "
+                            "operator for an invitation by another name");
+    }
 }
 
 HttpResponse TripsApi::list(Database& uploads, const AccessToken& token) const {

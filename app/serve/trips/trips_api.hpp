@@ -43,9 +43,16 @@ public:
     /// or with a body that cannot be a trip. For the thread of the network.
     HttpAdmission admit(const HttpRequest& request);
 
+    /// Who may read something.
+    enum class Readers { with_token, operator_ };
+
     /// Refuses a request to read what the server shows, unless by a token for that. For the same
     /// thread.
-    std::optional<HttpResponse> refused_reading(const HttpRequest& request);
+    std::optional<HttpResponse> refused_reading(const HttpRequest& request,
+                                                Readers readers = Readers::with_token);
+
+    /// Tests whether a request has the token of an operator. Thread-safe.
+    bool is_of_operator(const HttpRequest& request);
 
     /// Answers an admitted request. Thread-safe.
     HttpResponse answer(const HttpRequest& request);
@@ -77,8 +84,13 @@ private:
     TokenBuckets by_token_;
     TokenBuckets by_address_;
     TokenBuckets failures_;
-    std::mutex mutex_; ///< guards uploads_
-    std::optional<Database> uploads_;
+    /// Connection with the mutex that guards it.
+    struct Guarded {
+        std::mutex mutex;
+        std::optional<Database> uploads{};
+    };
+    Guarded of_readers_;
+    Guarded of_writers_; ///< who wait for the disk, or for those who do
 };
 
 } // namespace macadam

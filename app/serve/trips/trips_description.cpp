@@ -39,6 +39,14 @@ struct Operation {
     std::vector<int> problems{};
 };
 
+/// Response of a type, with the schema of a component.
+std::string typed_response(std::string_view type, std::string_view component) {
+    return fmt::format(
+        R"({{"description":"OK","content":{{"{}":{{"schema":{{"$ref":"#/components/schemas/{}"}}}}}}}})",
+        type,
+        component);
+}
+
 std::string operation_text(const Operation& operation) {
     JsonObject responses;
     for (const auto& [status, text] : operation.responses) {
@@ -65,6 +73,42 @@ std::string operation_text(const Operation& operation) {
 const std::string_view trip_security_schemes =
     R"({"bearer":{"type":"http","scheme":"bearer"},"basic":{"type":"http","scheme":"basic"}})";
 
+void add_trip_collection_paths(JsonObject& paths, const std::vector<std::string>& of_items) {
+    std::string parameters;
+    for (const auto& parameter : of_items) {
+        parameters += (parameters.empty() ? "" : ",") + parameter;
+    }
+    constexpr std::string_view here = "/collections/trips", geojson = "application/geo+json";
+    constexpr std::string_view feature =
+        R"({"name":"featureId","in":"path","required":true,"description":"SHA-256 of the trip","schema":{"type":"string"}})";
+    const auto add = [&](std::string_view path,
+                         std::string_view id,
+                         std::string_view summary,
+                         std::string_view its_parameters,
+                         std::string response) {
+        JsonObject object;
+        object.add("get",
+                   JsonRaw{operation_text({.id = id,
+                                           .summary = summary,
+                                           .parameters = its_parameters,
+                                           .responses = {{200, std::move(response)}},
+                                           .problems = {400, 401, 403, 404, 429, 503}})});
+        paths.add(fmt::format("{}{}", here, path), JsonRaw{object.text()});
+    };
+    add("",
+        "tripCollection",
+        "Trips, without where they went; for tokens of scope operator",
+        "",
+        typed_response("application/json", "Linked"));
+    add("/queryables",
+        "tripQueryables",
+        "Properties of trips for filters",
+        "",
+        R"({"description":"OK","content":{"application/schema+json":{"schema":{"type":"object"}}}})");
+    add("/items", "tripItems", "Trips", parameters, typed_response(geojson, "FeatureCollection"));
+    add("/items/{featureId}", "tripItem", "A trip", feature, typed_response(geojson, "Feature"));
+}
+
 void add_trip_paths(JsonObject& paths) {
     const auto list_schema = fmt::format(
         R"({{"type":"object","required":["trips"],"properties":{{"trips":{{"type":"array","items":{}}}}}}})",
@@ -87,7 +131,7 @@ void add_trip_paths(JsonObject& paths) {
                    response_text(
                        "The token",
                        R"({"type":"object","required":["token"],"properties":{"token":{"type":"string"}}})")}},
-             .problems = {401, 404, 429, 503}})});
+             .problems = {401, 404, 409, 429, 503}})});
     paths.add("/v1/tokens", JsonRaw{tokens.text()});
     JsonObject list;
     list.add("get",

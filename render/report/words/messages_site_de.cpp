@@ -28,6 +28,8 @@ constexpr std::array messages{
     Message{"site.compared",
             "Im Ausschnitt: {better} Abschnitte ebener, {worse} unebener, {unsure} ohne "
             "signifikante Änderung"},
+    Message{"site.zoom_in", "Vergrößern"},
+    Message{"site.zoom_out", "Verkleinern"},
     Message{"site.zoom_to_compare", "Zum Vergleichen einzelner Abschnitte hineinzoomen"},
     Message{"site.confidence.high", "auf 15 % genau"},
     Message{"site.confidence.mid", "auf 30 % genau, oder aus der Ferne"},

@@ -28,6 +28,8 @@ constexpr std::array messages{
     Message{"site.compared",
             "In view: {better} segments smoother, {worse} rougher, {unsure} without significant "
             "change"},
+    Message{"site.zoom_in", "Zoom in"},
+    Message{"site.zoom_out", "Zoom out"},
     Message{"site.zoom_to_compare", "Zoom in to compare single segments"},
     Message{"site.confidence.high", "within 15 %"},
     Message{"site.confidence.mid", "within 30 %, or seen from afar"},

@@ -9,15 +9,19 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -211,6 +215,103 @@ TEST(HttpServer, ClosesConnectionsWhoseHeadIsLate) {
     EXPECT_TRUE(slow.is_closed());
     ends = true;
     drip.join();
+}
+
+TEST(HttpServer, LetsOneLaneWaitForNoOther) {
+    auto lanes = config();
+    lanes.workers = 1;
+    lanes.lanes = {{.workers = 1, .max_waiting = 2}};
+    auto made = handlers();
+    std::promise<void> go;
+    const auto may_go = go.get_future().share();
+    std::atomic<int> asked = 0, begun = 0;
+    made.lane = [&](const HttpRequest& request) -> std::size_t {
+        const bool hangs = request.path == "/hung";
+        asked += hangs ? 1 : 0;
+        return hangs ? 1 : 0;
+    };
+    made.answer = [&](const HttpRequest& request, std::size_t worker) -> HttpResponse {
+        if (request.path == "/hung") {
+            ++begun;
+            may_go.wait();
+        }
+        return {.body = std::to_string(worker)};
+    };
+    const HttpServer server{lanes, made};
+    std::deque<HttpClient> hung;
+    const auto wait_for = [](const std::atomic<int>& count, int wanted) {
+        while (count < wanted) { // the test's time limit ends it
+            std::this_thread::sleep_for(1ms);
+        }
+    };
+    for (int i = 0; i < 4; ++i) { // one at work, two that wait, one too many
+        hung.emplace_back(server.port()).send("GET /hung HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        wait_for(begun, 1);
+    }
+    wait_for(asked, 4);
+    EXPECT_EQ(get(server.port(), "/a").body, "0");
+    go.set_value();
+    int answered = 0, refused = 0;
+    for (auto& client : hung) {
+        const auto answer = client.answer();
+        answered += answer.body == "1" ? 1 : 0;
+        refused += answer.status == 503 && answer.headers.at("retry-after") == "1" ? 1 : 0;
+    }
+    EXPECT_EQ(answered, 3);
+    EXPECT_EQ(refused, 1);
+}
+
+/// Body on a disk that hangs until it is told to go on.
+struct HungBody final : HttpBody {
+    HungBody(std::shared_future<void> when,
+             std::atomic<std::size_t>& its_bytes,
+             std::atomic<std::size_t>& its_largest)
+        : may_go{std::move(when)}, bytes{its_bytes}, largest{its_largest} {}
+    void add(std::string_view block) override {
+        may_go.wait();
+        bytes += block.size();
+        largest = std::max<std::size_t>(largest, block.size());
+    }
+    std::shared_future<void> may_go;
+    std::atomic<std::size_t>& bytes;
+    std::atomic<std::size_t>& largest;
+};
+
+TEST(HttpServer, AnswersWhileADiskHangs) {
+    auto taking = config();
+    taking.max_body_bytes = 2'000'000;
+    taking.lanes = {{.workers = 1}};
+    auto made = handlers();
+    std::promise<void> go;
+    std::atomic<std::size_t> bytes = 0, largest = 0;
+    made.lane = [](const HttpRequest& request) -> std::size_t { return request.method == "PUT"; };
+    made.admit = [&, may_go = go.get_future().share()](const HttpRequest&) -> HttpAdmission {
+        return {.body = std::make_shared<HungBody>(may_go, bytes, largest)};
+    };
+    const HttpServer server{taking, made};
+    const std::string log(1'500'000, 'x');
+    std::deque<HttpClient> clients;
+    std::vector<std::thread> sending;
+    for (int i = 0; i < 4; ++i) {
+        sending.emplace_back([&log, &client = clients.emplace_back(server.port())] {
+            client.send("PUT /a HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1500000\r\n\r\n");
+            client.send(log);
+        });
+    }
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_EQ(get(server.port(), "/health").body, "well");
+        EXPECT_EQ(get(server.port(), "/a").status, 200);
+    }
+    EXPECT_EQ(bytes, 0U);
+    go.set_value();
+    for (auto& thread : sending) {
+        thread.join();
+    }
+    for (auto& client : clients) {
+        EXPECT_EQ(client.answer().status, 200);
+    }
+    EXPECT_EQ(bytes, 4 * log.size());
+    EXPECT_LE(largest, 100'000U); // what one connection keeps in memory
 }
 
 struct CountedBody final : HttpBody {

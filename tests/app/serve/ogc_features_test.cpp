@@ -2,6 +2,7 @@
 // 17-069r4 (annex A) and 18-058r1, which these follow.
 
 #include "app/http/http_message.hpp"
+#include "app/query/section_query.hpp"
 #include "app/serve/ogc/segment_selections.hpp"
 #include "storage/exports/export.hpp"
 #include "support/http/served_store.hpp"
@@ -89,6 +90,45 @@ TEST(OgcFeatures, DescribesCollections) { // A.2.5, A.2.6 core/fc-md-success, sf
         EXPECT_THAT(collection.at("crs")[0].get<std::string>(), HasSubstr("CRS84"));
         EXPECT_EQ(served.follow(link_to(collection, "items")).at("type"), "FeatureCollection");
     }
+}
+
+TEST(OgcFeatures, ServesTheSectionsThatQueriesCut) {
+    const auto table = test_folder() / "sections.csv";
+    const SectionOptions options{.route = {},
+                                 .best = {},
+                                 .along = {},
+                                 .sections = table,
+                                 .length_m = 100,
+                                 .homogeneous = false,
+                                 .exclude = {},
+                                 .exclude_radius_m = 20};
+    const Served served{{.port = 0}, {}, options};
+    written(table.parent_path(), "sections.csv", "section,way_id,from_m,to_m\nhigh,1,0,200\n");
+    std::vector<NamedSection> cut;
+    each_section(StoreReader::open(served.file), options, {}, [&](const NamedSection& section) {
+        cut.push_back(section);
+    });
+    ASSERT_EQ(cut.size(), 2U);
+    const auto page = served.page("/collections/sections/items");
+    ASSERT_EQ(page.at("numberMatched"), cut.size());
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        const auto& properties = page.at("features")[i].at("properties");
+        EXPECT_EQ(properties.at("section"), "high");
+        EXPECT_NEAR(properties.at("iri").get<double>(),
+                    cut[i].section.measured.mean.iri,
+                    0.0005); // its third decimal
+        EXPECT_EQ(page.at("features")[i].at("geometry").at("type"), "LineString");
+    }
+    EXPECT_EQ(served.page("/collections/sections/items?filter=iri%20%3E%201000").at("features"),
+              json::array());
+    EXPECT_EQ(served.page("/collections/sections/items/2"), [&] {
+        auto feature = page.at("features")[1];
+        feature["links"] = served.page("/collections/sections/items/2").at("links");
+        return feature;
+    }());
+    EXPECT_TRUE(
+        served.page("/collections/sections/queryables").at("properties").contains("iri_worst"));
+    EXPECT_THAT(served.page("/api").dump(), HasSubstr("\"sections\""));
 }
 
 TEST(OgcFeatures, GivesTheFeaturesThatExportsGive) { // A.2.7 core/fc-op, fc-response

@@ -1,6 +1,9 @@
 // OGC API - Tiles over real sockets, after the abstract tests of OGC 20-057, annex A.
 
 #include "app/export/tile_export.hpp"
+#include "app/export/tile_square_painter.hpp"
+#include "app/serve/live/picture_tiles.hpp"
+#include "mapping/style/iri_class.hpp"
 #include "storage/files/gzip.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/http/served_store.hpp"
@@ -9,14 +12,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -86,6 +92,72 @@ TEST(OgcTiles, SaysNothingInEmptyTiles) { // core/tc-success, B: 204
     const auto empty = served.ask("/tiles/WebMercatorQuad/16/0/0");
     EXPECT_EQ(empty.status, 204);
     EXPECT_TRUE(empty.body.empty());
+}
+
+TEST(OgcTiles, DrawsThePictureTilesThatExportsHave) { // png
+    const ServedWorld served;
+    const auto box = tile_json_of(served).at("bounds");
+    const auto store = StoreReader::open(served.file);
+    MapStyle style;
+    style.classes = class_table(store.settings().class_table);
+    TileSquarePainter painter{store, style, 256, 2048}; // another square than the server's
+    const auto middle =
+        tile_position({.lat_deg = (box[1].get<double>() + box[3].get<double>()) / 2,
+                       .lon_deg = (box[0].get<double>() + box[2].get<double>()) / 2},
+                      14);
+    const TileId id{14, static_cast<std::uint32_t>(middle.x), static_cast<std::uint32_t>(middle.y)};
+    std::size_t looked_at = 0, drawn = 0;
+    painter.draw({{14, id.x / 8 * 8, id.y / 8 * 8}, {id.x / 8 * 8, id.y / 8 * 8, id.x, id.y}},
+                 [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
+                     const auto answer = served.ask(
+                         fmt::format("/map/tiles/WebMercatorQuad/14/{}/{}", tile.y, tile.x));
+                     ++looked_at;
+                     if (png == painter.empty()) {
+                         EXPECT_EQ(answer.status, 204);
+                         return;
+                     }
+                     ++drawn;
+                     EXPECT_EQ(answer.status, 200) << answer.body;
+                     EXPECT_EQ(answer.headers.at("content-type"), "image/png");
+                     EXPECT_EQ(answer.body, std::string(png.begin(), png.end()));
+                 });
+    EXPECT_GE(looked_at, 1U);
+    EXPECT_GE(drawn, 1U);
+    const auto path = fmt::format("/tiles/WebMercatorQuad/14/{}/{}", id.y, id.x);
+    EXPECT_EQ(served.ask(path + "?f=png").body, served.ask("/map" + path).body);
+    EXPECT_EQ(served.ask(path + "?f=jpeg").status, 400);
+    EXPECT_EQ(served.ask("/map" + path + "?f=mvt").status, 400);
+    EXPECT_EQ(served.ask("/map/tiles/WebMercatorQuad/17/0/0").status, 404);
+    const auto set = served.page("/map/tiles/WebMercatorQuad");
+    EXPECT_EQ(set.at("dataType"), "map");
+    EXPECT_EQ(set.at("links").back().at("type"), "image/png");
+}
+
+TEST(OgcTiles, DrawsNoMorePicturesAtOnceThanItMay) {
+    const auto file = ServedWorld::new_file();
+    PictureTiles pictures{file, Audience::anyone, Console{Verbosity::quiet}};
+    constexpr std::size_t clients = PictureTiles::max_squares + 24;
+    std::atomic<std::size_t> refused = 0, drawn = 0;
+    {
+        std::vector<std::jthread> asking;
+        for (std::uint32_t i = 0; i < clients; ++i) {
+            asking.emplace_back([&, i] { // each of another square
+                const auto tile = pictures.tile("v", {16, 4 * i, 4 * i});
+                ++(tile ? drawn : refused);
+            });
+        }
+    }
+    EXPECT_EQ(refused + drawn, clients);
+    EXPECT_GE(drawn, 1U);
+    EXPECT_TRUE(pictures.tile("v", {16, 0, 0})); // none is refused for ever
+}
+
+TEST(OgcTiles, SaysOnceWhyItCannotDraw) {
+    const auto file = test_folder() / "none.gpkg";
+    PictureTiles pictures{file, Audience::anyone, Console{Verbosity::quiet}};
+    EXPECT_FALSE(pictures.tile("v", {0, 0, 0}));
+    new_store(file);
+    EXPECT_TRUE(pictures.tile("v", {0, 0, 0})); // tries again
 }
 
 TEST(OgcTiles, RefusesTilesOutsideOfTheMatrix) { // core/tc-error

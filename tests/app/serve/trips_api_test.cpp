@@ -264,6 +264,33 @@ TEST(TripsApi, GivesATokenForAnInvitationOnce) {
     EXPECT_EQ(world.ask("POST", "/v1/tokens", world.anna).status, 401); // a token is none
 }
 
+TEST(TripsApi, SaysWhyAnInvitationGivesNoToken) {
+    TakingWorld world;
+    const auto invitation = create_invitation(
+        world.uploads,
+        {.owner = "dora", .expires_ms = far_ahead_ms, .token_expires_ms = far_ahead_ms});
+    world.token("dora", TokenScope::read);
+    const auto answer = world.ask("POST", "/v1/tokens", invitation);
+    EXPECT_EQ(answer.status, 409);
+    EXPECT_THAT(answer.body, HasSubstr("another scope"));
+}
+
+TEST(TripsApi, AnswersWhileAnUploadWaitsForTheDisk) {
+    TakingWorld world;
+    std::future<Answer> waiting;
+    {
+        const Transaction held{world.uploads, Transaction::Kind::write}; // as a slow sync holds it
+        waiting = std::async(std::launch::async, [&] { return world.put("a log", world.anna); });
+        for (int i = 0; i < 20; ++i) {
+            EXPECT_EQ(world.ask("GET", "/health", "").status, 200);
+            EXPECT_EQ(world.ask("GET", "/v1/trips", world.ben).status, 200);
+            EXPECT_EQ(world.ask("GET", "/collections/segments/items", "").status, 200);
+        }
+        EXPECT_EQ(waiting.wait_for(std::chrono::seconds{0}), std::future_status::timeout);
+    }
+    EXPECT_EQ(waiting.get().status, 202);
+}
+
 TEST(TripsApi, TellsTheFateByServerSentEvents) {
     const TakingWorld world;
     const std::string log = "a log";
@@ -385,16 +412,30 @@ TEST(TripsApi, AllowsEachRoleWhatTheDefinitionSays) {
     const auto done = [](int status) { return status >= 200 && status < 300; };
     const std::string log = "a log of anna";
     const auto paths = nlohmann::json::parse(get(world.port, "/api").body).at("paths");
-    std::size_t looked_at = 0;
+    std::size_t looked_at = 0, of_operator = 0;
     for (const auto& [path, operations] : paths.items()) {
         for (const std::string method : {"get", "put", "post", "delete", "patch", "options"}) {
             auto target = path;
             if (const auto at = target.find("{sha256}"); at != std::string::npos) {
                 target.replace(at, 8, sha256_of(log));
             }
-            if (!path.starts_with("/v1/")) { // for all, to read
+            if (!path.starts_with("/v1/")) { // for all or the operator, to read
+                const bool is_of_operator = path.starts_with("/collections/trips");
                 EXPECT_EQ(operations.contains(method), method == "get") << path;
-                EXPECT_TRUE(method != "get" || !operations.at("get").contains("security"));
+                EXPECT_EQ(method == "get" && operations.at("get").contains("security"),
+                          method == "get" && is_of_operator)
+                    << path;
+                for (const auto& [token, status] : std::vector<std::pair<std::string, int>>{
+                         {"", 401},
+                         {expired, 401},
+                         {world.reader, 403},
+                         {world.anna, 403},
+                         {world.operator_, path.ends_with("}") ? 404 : 200}}) {
+                    if (method == "get" && is_of_operator) {
+                        EXPECT_EQ(world.ask("GET", target, token).status, status) << path << token;
+                        ++of_operator;
+                    }
+                }
                 EXPECT_TRUE(
                     method == "get" ||
                     world.ask(method == "put" ? "PUT" : "POST", target, world.operator_, "x")
@@ -435,6 +476,60 @@ TEST(TripsApi, AllowsEachRoleWhatTheDefinitionSays) {
         }
     }
     EXPECT_EQ(looked_at, 4U);
+    EXPECT_EQ(of_operator, 4U * 5U);
+}
+
+TEST(TripsApi, ListsTheTripsOfTheDatabaseForItsOperatorAlone) {
+    const TakingWorld world{PrivacyProfile::own};
+    auto store = RoadStore::open(world.file);
+    import_trips(store, 3);
+    const auto ids = [&](const std::string& token) {
+        std::vector<std::string> found;
+        const auto page = nlohmann::json::parse(world.ask("GET", "/collections", token).body);
+        for (const auto& collection : page.at("collections")) {
+            found.push_back(collection.at("id"));
+        }
+        return found;
+    };
+    const std::vector<std::string> open{"segments", "worst", "events"};
+    EXPECT_EQ(ids(""), open);
+    EXPECT_EQ(ids(world.reader), open);
+    EXPECT_EQ(ids(world.operator_),
+              (std::vector<std::string>{"segments", "worst", "events", "trips"}));
+    const auto items = [&](const std::string& query) {
+        return nlohmann::json::parse(
+            world.ask("GET", "/collections/trips/items" + query, world.operator_).body);
+    };
+    while (items("").at("numberMatched") != 3) {                    // the server looks each second
+        std::this_thread::sleep_for(std::chrono::milliseconds{50}); // the test's limit ends it
+    }
+    EXPECT_EQ(items("?filter=passes%20%3E%200%20AND%20geometry%20IS%20NULL").at("numberMatched"),
+              3);
+    EXPECT_EQ(items("?filter=passes%20%3C%200").at("numberMatched"), 0);
+    EXPECT_EQ(items("?bbox=-180,-90,180,90").at("numberMatched"), 0);
+    EXPECT_EQ(items("?filter=S_INTERSECTS(geometry,BBOX(-180,-90,180,90))").at("numberMatched"), 0);
+    const auto page = items("?limit=2");
+    EXPECT_EQ(page.at("numberReturned"), 2);
+    const auto trip = page.at("features")[0];
+    EXPECT_TRUE(trip.at("geometry").is_null());
+    std::vector<std::string> fields;
+    for (const auto& [name, value] : trip.at("properties").items()) {
+        fields.push_back(name);
+    }
+    EXPECT_EQ(fields, // nothing that tells where, or when within a day
+              (std::vector<std::string>{"day",
+                                        "driven_m",
+                                        "matched_m",
+                                        "method",
+                                        "passes",
+                                        "rows_read",
+                                        "rows_used",
+                                        "vehicle",
+                                        "vehicle_model"}));
+    const auto one = world.ask(
+        "GET", "/collections/trips/items/" + trip.at("id").get<std::string>(), world.operator_);
+    EXPECT_EQ(one.status, 200);
+    EXPECT_EQ(one.headers.at("cache-control"), "no-store");
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -23,14 +24,18 @@ namespace macadam::testing {
 /// Server of a database with three trips over way 1, for as long as it lives.
 struct ServedWorld {
     explicit ServedWorld(const HttpServerConfig& config = {.port = 0},
-                         const ServedAddress& address = {})
-        : server{[this, config, address] {
-              serve_database(file,
-                             Audience::anyone,
-                             config,
-                             address,
-                             Console{Verbosity::quiet, stop.get_token()},
-                             [this](std::uint16_t its_port) { started.set_value(its_port); });
+                         const ServedAddress& address = {},
+                         const std::optional<SectionOptions>& sections = {})
+        : server{[this, config, address, sections] {
+              serve_database(
+                  file,
+                  Audience::anyone,
+                  config,
+                  address,
+                  Console{Verbosity::quiet, stop.get_token()},
+                  [this](std::uint16_t its_port) { started.set_value(its_port); },
+                  {},
+                  sections);
           }} {}
     ~ServedWorld() { stop.request_stop(); }
     ServedWorld(const ServedWorld&) = delete;
