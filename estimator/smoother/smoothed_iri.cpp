@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t tuning_samples = 3000;
 constexpr std::size_t min_tuning_samples = 1200;
 
+constexpr auto roll_channel = static_cast<std::size_t>(Channel::roll_rate);
+
 constexpr double untuned_sd = 0.1; // relative, of a car with too few data for tuning
 
 // Error common to every IRI, from simulated cars: with known friction, and with estimated friction,
@@ -24,6 +26,8 @@ constexpr double known_car_part = 0.02;
 constexpr double found_car_part = 0.04;
 constexpr double random_part = 0.07; // of 1 m, independent from metre to metre
 constexpr double indicative_common = 0.20;
+
+constexpr int roll_rounds = 4; // for roll rate after the other channels, from their level
 
 std::size_t sample_at(const DriveRecord& drive, double travel_m) {
     return static_cast<std::size_t>(std::ranges::lower_bound(drive.travel_m, travel_m) -
@@ -166,6 +170,47 @@ Piece piece_at(const DriveRecord& drive,
     return {from, to, sample_at(drive, from_m - config.margin_m), last};
 }
 
+/// Returns whether roll rate serves HRI/MRI alone, beside channels that observe the mean of the
+/// tracks.
+bool is_roll_apart(const DriveRecord& drive, const EstimatorConfig& config) {
+    return !config.tracks && !config.sensors && felt_by({&drive, 1}).mean &&
+           !drive.felt[roll_channel].empty();
+}
+
+/// Adds half the difference of the tracks from roll rate. The blocks of a symmetric car have no
+/// state in common, so it has a small filter of its own: the level, and the damping with friction,
+/// are those found by the other channels.
+RoadEstimate with_half(RoadEstimate estimate, VehicleDrive roll, SmootherConfig config) {
+    config.rounds = roll_rounds;
+    config.settling = roll_rounds - 1;
+    roll.friction_n = 0; // of which the damping is known
+    RoadEstimate begin;
+    begin.level = estimate.level;
+    begin.level.felt = {.mean = false, .half = true};
+    begin.which = estimate.which;
+    begin.noise.resize(1);
+    const auto found = smooth_drives({std::move(roll)}, config, &begin);
+    for (std::size_t i = 0; i < found.profile_m.size(); ++i) {
+        estimate.profile_m[i].half = found.profile_m[i].half;
+        estimate.perturbation_m[i].half = found.perturbation_m[i].half;
+    }
+    estimate.felt.half = true;
+    return estimate;
+}
+
+RoadEstimate estimate_of(VehicleDrive drive, bool roll_apart, const SmootherConfig& config) {
+    if (!roll_apart) {
+        return smooth_drives({std::move(drive)}, config);
+    }
+    VehicleDrive roll = drive;
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        auto& without = channel == roll_channel ? drive.drive : roll.drive;
+        without.felt[channel].clear();
+        without.variance[channel].clear();
+    }
+    return with_half(smooth_drives({std::move(drive)}, config), std::move(roll), config);
+}
+
 } // namespace
 
 TunedCar car_in(const Stretch& stretch,
@@ -174,10 +219,9 @@ TunedCar car_in(const Stretch& stretch,
                 const std::stop_token& stop,
                 const Resonance& mount) {
     auto drive = drive_of(stretch, vehicle, config, mount);
-    if (!config.tracks && !config.sensors) { // roll then serves HRI/MRI only
-        const auto roll = static_cast<std::size_t>(Channel::roll_rate);
-        drive.felt[roll].clear();
-        drive.variance[roll].clear();
+    if (is_roll_apart(drive, config)) {
+        drive.felt[roll_channel].clear();
+        drive.variance[roll_channel].clear();
     }
     if (drive.travel_m.size() < min_tuning_samples || !is_felt(drive)) {
         return {.vehicle = vehicle,
@@ -225,8 +269,10 @@ IriRun smoothed_iri(const Stretch& stretch,
     run.profile = {.start_travel_m = run.start_travel_m, .step_m = smoother.cell_m};
     for (auto cell = begin; cell < end && !progress.stop.stop_requested();) {
         const auto piece = piece_at(drive, cell, end, smoother.cell_m, pieces);
-        const auto estimate = smooth_drives(
-            {{piece_of(drive, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
+        const auto estimate =
+            estimate_of({piece_of(drive, piece.first, piece.last), vehicle, car.friction_n},
+                        is_roll_apart(drive, config),
+                        smoother);
         append(estimate, piece.from, piece.to, config.tracks || config.sensors, run);
         if (!vehicle.axles) {
             run.scatter_mm_per_m.clear(); // it excludes what one axle misses
