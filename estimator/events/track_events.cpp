@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 namespace macadam {
@@ -38,25 +39,36 @@ constexpr double size_part = 0.3;
 constexpr double echo_m = 5;
 constexpr double echo_part = 0.5;
 
-/// Returns per station the standard deviation of the road's own responses, robust against events.
-std::vector<double> road_sd(const std::vector<double>& sizes, double step_m) {
-    const auto reach = static_cast<std::size_t>(road_window_m / step_m);
-    const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(1 / step_m));
-    std::vector<double> sd(sizes.size());
-    std::vector<double> near;
-    for (std::size_t at = 0; at < sizes.size(); at += every) {
-        const std::size_t from = at - std::min(at, reach);
-        const std::size_t to = std::min(sizes.size(), at + reach + 1);
-        near.clear();
-        for (std::size_t i = from; i < to; ++i) {
-            near.push_back(std::abs(sizes[i]));
+/// Standard deviation of the road's own responses, robust against events; found, metre by metre,
+/// where it is asked for.
+class RoadScatter {
+public:
+    RoadScatter(const std::vector<double>& sizes, double step_m)
+        : sizes_{sizes}, reach_{static_cast<std::size_t>(road_window_m / step_m)},
+          every_{std::max<std::size_t>(1, static_cast<std::size_t>(1 / step_m))} {}
+
+    double sd_at(std::size_t station) {
+        if (const auto begin = station / every_ * every_; begin_ != begin) {
+            begin_ = begin;
+            const std::size_t from = begin - std::min(begin, reach_);
+            const std::size_t to = std::min(sizes_.size(), begin + reach_ + 1);
+            near_.clear();
+            for (std::size_t i = from; i < to; ++i) {
+                near_.push_back(std::abs(sizes_[i]));
+            }
+            sd_ = median(near_) / normal_median;
         }
-        std::fill(sd.begin() + static_cast<std::ptrdiff_t>(at),
-                  sd.begin() + static_cast<std::ptrdiff_t>(std::min(sizes.size(), at + every)),
-                  median(near) / normal_median);
+        return sd_;
     }
-    return sd;
-}
+
+private:
+    const std::vector<double>& sizes_;
+    std::size_t reach_; ///< stations
+    std::size_t every_; ///< stations per metre
+    std::optional<std::size_t> begin_{};
+    double sd_ = 0; ///< of the metre from begin_ on
+    std::vector<double> near_{};
+};
 
 /// Returns per station the root mean square of the responses to the error nearby.
 std::vector<double> error_sd(const std::vector<double>& sizes, double step_m) {
@@ -113,7 +125,7 @@ void add_responses(const EventTemplate& shape,
                    const EventConfig& config,
                    std::vector<TrackEvent>& events) {
     const auto sizes = template_sizes(shape, profile_m);
-    const auto road = road_sd(sizes, step_m);
+    RoadScatter road{sizes, step_m};
     const auto error = error_sd(template_sizes(shape, error_m), step_m);
     const bool is_step = shape.shape == EventShape::step;
     const double min_m = (is_step ? config.min_line_mm : config.min_hole_mm) / mm_per_m;
@@ -121,10 +133,14 @@ void add_responses(const EventTemplate& shape,
     const double whole_m = step_m * static_cast<double>(profile_m.size());
     for (std::size_t at = 0; at < sizes.size(); ++at) {
         const double size_m = is_step ? std::abs(sizes[at]) : sizes[at];
-        const double sd_m = std::hypot(road[at], error[at]);
         const double at_m = step_m * static_cast<double>(at) + half_m;
-        if (size_m >= min_m && size_m > config.min_score * sd_m && at_m > start_up_m &&
-            at_m < whole_m - start_up_m && has_its_form(shape, profile_m, at, sizes[at], step_m)) {
+        if (!(size_m >= min_m && size_m > config.min_score * error[at] && at_m > start_up_m &&
+              at_m < whole_m - start_up_m)) {
+            continue;
+        }
+        const double sd_m = std::hypot(road.sd_at(at), error[at]);
+        if (size_m > config.min_score * sd_m &&
+            has_its_form(shape, profile_m, at, sizes[at], step_m)) {
             events.push_back({.shape = shape.shape,
                               .at_m = at_m,
                               .length_m = shape.length_m,
