@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -72,6 +74,21 @@ bool is_roughness(float mm_per_m) {
 
 MATCHER(IsRoughness, "is a finite number between 0 and 100") {
     return is_roughness(arg);
+}
+
+std::vector<double> half_difference_m(const EstimatedProfile& profile) {
+    std::vector<double> half_m;
+    for (std::size_t i = 0; i < profile.left_m.size(); ++i) {
+        half_m.push_back(static_cast<double>(profile.left_m[i] - profile.right_m[i]) / 2);
+    }
+    return half_m;
+}
+
+double cosine(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto product = [](const auto& x, const auto& y) {
+        return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+    };
+    return product(a, b) / std::sqrt(product(a, a) * product(b, b));
 }
 
 double mri_of(const IriRun& run, double from_m, double to_m) {
@@ -171,16 +188,22 @@ TEST(SmoothedIri, TakesTheSensorsThatItIsTold) {
 }
 
 /// The headline of a map: roll serves the ratio of HRI to MRI alone, by the profile.
-TEST(SmoothedIri, WithoutTracksGivesThoseOfTheProfileAlone) {
+TEST(SmoothedIri, WithoutTracksTakesTheirDifferenceFromRollAndLeavesTheHeadlineAlone) {
     auto config = smoother_config();
     config.tracks = false;
     config.profile = true;
     const auto run = smoothed_iri(short_stretch(), known_car(), config);
-    const auto by_roll =
-        run_by(short_stretch(), {.vertical = true, .roll = true, .pitch = true, .yaw = true});
     EXPECT_THAT(run.left_mm_per_m, IsEmpty());
-    EXPECT_EQ(run.centre_mm_per_m, by_roll.centre_mm_per_m);
-    EXPECT_THAT(run.profile.left_m, SizeIs(run.profile.centre_m.size()));
+    EXPECT_EQ(run.centre_mm_per_m,
+              run_by(short_stretch(), {.vertical = true, .pitch = true}).centre_mm_per_m);
+
+    config.sensors = {.vertical = true, .roll = true, .pitch = true, .yaw = true};
+    const auto jointly = smoothed_iri(short_stretch(), known_car(), config);
+    const auto apart_m = half_difference_m(run.profile);
+    const auto jointly_m = half_difference_m(jointly.profile);
+    ASSERT_THAT(apart_m, SizeIs(run.profile.centre_m.size()));
+    ASSERT_THAT(jointly_m, SizeIs(apart_m.size()));
+    EXPECT_GT(cosine(apart_m, jointly_m), 0.95); // 4 rounds beside 12 of all channels
 }
 
 TEST(SmoothedIri, WithTracksTakesLateralOnlyBesideRollAndAKnownHeight) {
