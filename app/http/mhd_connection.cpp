@@ -1,6 +1,11 @@
 #include "app/http/mhd_connection.hpp"
 
+#include "app/http/http_stream.hpp"
+
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -22,7 +27,38 @@ void free_body(void* body) {
     delete static_cast<std::string*>(body);
 }
 
-MHD_Response* response_of(FinishedResponse& finished) {
+/// Stream with the connection that receives it.
+struct ReceivedStream {
+    std::shared_ptr<HttpStream> stream;
+    MHD_Connection* connection;
+};
+
+ssize_t read_stream(void* received, std::uint64_t /*position*/, char* to, std::size_t max) {
+    const auto& [stream, connection] = *static_cast<ReceivedStream*>(received);
+    const auto count = stream->take(
+        {to, max},
+        [connection] { MHD_suspend_connection(connection); },
+        [connection] { MHD_resume_connection(connection); });
+    return !count        ? 0
+           : *count == 0 ? MHD_CONTENT_READER_END_OF_STREAM
+                         : static_cast<ssize_t>(*count);
+}
+
+void free_stream(void* received) {
+    const std::unique_ptr<ReceivedStream> own{static_cast<ReceivedStream*>(received)};
+    own->stream->close();
+}
+
+MHD_Response* response_of(MHD_Connection* connection, FinishedResponse& finished) {
+    if (finished.stream) {
+        constexpr std::size_t block = 4096;
+        return MHD_create_response_from_callback(
+            MHD_SIZE_UNKNOWN,
+            block,
+            read_stream,
+            new ReceivedStream{std::move(finished.stream), connection},
+            free_stream);
+    }
     if (finished.file && finished.status != 304 && finished.status != 416) {
         const int file = fcntl(finished.file->open->number(), F_DUPFD_CLOEXEC, 0);
         return file < 0 ? nullptr
@@ -62,7 +98,7 @@ int socket_of(MHD_Connection* connection) {
 }
 
 MHD_Result send_response(MHD_Connection* connection, FinishedResponse& finished) {
-    auto* const response = response_of(finished);
+    auto* const response = response_of(connection, finished);
     if (response == nullptr) { // no more files can be open
         return MHD_NO;
     }
