@@ -4,7 +4,6 @@
 #include "app/http/http_stream.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/http/mhd_connection.hpp"
-#include "app/http/mhd_daemon.hpp"
 #include "app/http/request_check.hpp"
 #include "app/http/response_finish.hpp"
 #include "app/http/worker_lane.hpp"
