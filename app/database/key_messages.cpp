@@ -4,22 +4,31 @@
 
 namespace macadam {
 
-void warn_of_open_key(const StoreReader& store, const Console& console) {
-    const auto file = key_file_of(store.file());
-    if (store.is_operator() && is_open_to_others(file)) {
+namespace {
+
+void warn_if_open(const std::filesystem::path& key_file, const Console& console) {
+    if (is_open_to_others(key_file)) {
         console.warn(fmt::format("{}: other users can read this key and identify the cars in "
                                  "the database; run 'chmod 600' on it",
-                                 file.string()));
+                                 key_file.string()));
     }
 }
 
-void make_missing_key(RoadStore& store, const Console& console) {
-    if (store.importer.make_missing_key()) {
+} // namespace
+
+void warn_of_open_key(const StoreReader& store, const Console& console) {
+    if (store.is_operator()) {
+        warn_if_open(key_file_of(store.file()), console);
+    }
+}
+
+void make_missing_key(ImportTarget& trips, const Console& console) {
+    if (trips.make_missing_key()) {
         console.warn(fmt::format("{}: was missing, so a new key was made; cars imported from "
                                  "now on cannot be linked to those already in the database",
-                                 key_file_of(store.file()).string()));
+                                 trips.key_file().string()));
     }
-    warn_of_open_key(store, console);
+    warn_if_open(trips.key_file(), console);
 }
 
 } // namespace macadam

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/cli/console.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/import_store.hpp"
 
 namespace macadam {
 
@@ -9,6 +9,6 @@ namespace macadam {
 void warn_of_open_key(const StoreReader& store, const Console& console);
 
 /// Creates a missing key before cars get pseudonyms, and warns of its limits.
-void make_missing_key(RoadStore& store, const Console& console);
+void make_missing_key(ImportTarget& trips, const Console& console);
 
 } // namespace macadam

@@ -1,6 +1,10 @@
 #include "app/database/lock_wait_messages.hpp"
 
+#include "storage/atomic/temporary_folder.hpp"
+#include "storage/networks/network_file.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
 #include "storage/store/server/store_copy.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +21,47 @@ LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console
             .stop = console.stop()};
 }
 
+StoreInfo create_store(const std::filesystem::path& store,
+                       const RoadNetwork& roads,
+                       const StoreSettings& settings,
+                       const Console& console) {
+    const auto progress = console.progress("writing segments");
+    if (!is_server_address(store.string())) {
+        const auto made = RoadStore::create(store, roads, settings, progress);
+        cache_network(made, roads);
+        return made.info();
+    }
+    const TemporaryFolder folder{std::filesystem::temp_directory_path() / "macadam"};
+    const auto file = folder.path() / "roads.gpkg";
+    const auto info = RoadStore::create(file, roads, settings, progress).info();
+    warn_of_superuser(copy_to_server(file, store.string(), {}, console.progress("copying")),
+                      console);
+    return info;
+}
+
+void warn_of_superuser(const StoreCopy& copy, const Console& console) {
+    if (copy.by_superuser) {
+        console.warn("connected as a superuser of the server: a role that owns its database is "
+                     "enough");
+    }
+}
+
 RoadStore opened_store(const std::filesystem::path& file, const Console& console) {
     console.detail(fmt::format("opening {}", file.string()));
+    if (is_server_address(file.string())) {
+        return RoadStore{open_server_replica(
+            file.string(), wait_policy_for(file, console), console.progress("reading drives"))};
+    }
     return RoadStore::open(file, wait_policy_for(file, console));
+}
+
+ImportStore opened_for_import(const std::filesystem::path& store, const Console& console) {
+    if (!is_server_address(store.string())) {
+        return import_store_of(opened_store(store, console));
+    }
+    console.detail(fmt::format("opening {}", store.string()));
+    auto open = open_server_import(store.string(), console.progress("fetching roads"));
+    return {store, StoreReader{open.image}, open.trips};
 }
 
 StoreReader

@@ -2,7 +2,8 @@
 
 #include "app/cli/console.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/import_store.hpp"
+#include "storage/store/server/store_copy.hpp"
 
 #include <filesystem>
 
@@ -12,8 +13,22 @@ namespace macadam {
 /// other process once, and Ctrl-C ends the wait.
 LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console& console);
 
+/// Warns if a copy was made by a superuser of the server.
+void warn_of_superuser(const StoreCopy& copy, const Console& console);
+
+/// Creates a database, as a file or on a server that has none.
+///
+/// \throws InputError  if it exists. Nothing remains after a failure.
+StoreInfo create_store(const std::filesystem::path& store,
+                       const RoadNetwork& roads,
+                       const StoreSettings& settings,
+                       const Console& console);
+
 /// Opens a database for a command that writes, with that wait policy.
 RoadStore opened_store(const std::filesystem::path& file, const Console& console);
+
+/// Opens a database, a file or on a server, to import trips.
+ImportStore opened_for_import(const std::filesystem::path& store, const Console& console);
 
 /// Opens a database for a command that reads, with that wait policy.
 StoreReader opened_reader(const std::filesystem::path& file,

@@ -1,6 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/import/import_outcome.hpp"
 #include "app/import/import_references.hpp"
 #include "app/import/import_run.hpp"
@@ -8,7 +8,6 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/networks/network_file.hpp"
-#include "storage/store/connection/import_lock.hpp"
 #include "storage/surveys/control_reader.hpp"
 
 #include <fmt/format.h>
@@ -18,14 +17,14 @@
 namespace macadam {
 namespace {
 
-void import_known(RoadStore& store,
+void import_known(ImportStore& store,
                   const KnownRoughness& known,
                   bool json,
                   const Console& console) {
     const auto roads =
-        load_or_build_network(store, [&](const std::string& words) { console.say(words); });
+        load_or_build_network(store.map, [&](const std::string& words) { console.say(words); });
     if (known.survey) {
-        const auto outcome = import_survey(store, roads, known);
+        const auto outcome = import_survey(*store.trips, roads, known);
         if (json) {
             print(json_line(outcome));
         } else if (!console.is_quiet()) {
@@ -39,14 +38,14 @@ void import_known(RoadStore& store,
     }
     if (known.control) {
         const auto sections = read_control_sections(*known.control, roads, known.mm_per_m_of_one);
-        store.maintenance.put_control_sections(sections);
+        opened_store(store.name, console).maintenance.put_control_sections(sections);
         console.say(fmt::format("{}: {} stored; 'macadam info' compares the cars with them",
                                 known.control->string(),
                                 counted(sections.size(), "control section")));
     }
 }
 
-void fuse_new(RoadStore& store, const Console& console) {
+void fuse_new(ImportStore& store, const Console& console) {
     const auto fused = fuse_new_passes(store, console);
     console.say(fmt::format("{} fused", counted(fused, "segment")));
 }
@@ -57,14 +56,16 @@ void run_import(const Arguments& arguments, const Console& console) {
     if (paths.empty() && !known.survey && !known.control) {
         throw UsageError{"PATH is missing"};
     }
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     auto options = parse_import(arguments);
     options.readmit = arguments.flag("--take-back");
     VehicleChoice vehicles{arguments};
-    auto store = opened_store(file, console);
+    auto store = opened_for_import(file, console);
     if (known.survey || known.control) {
-        const ImportLock import_lock{file, "reference"};
+        constexpr const char* name = "reference";
+        store.trips->begin_import(name, 0);
         import_known(store, known, options.json, console);
+        store.trips->end_import(name);
         if (paths.empty()) {
             fuse_new(store, console);
             return;
@@ -77,7 +78,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     if (asked == 0) {
         throw InputError{"no trip log was found: nothing was imported"};
     }
-    expect_on_map(totals, store, console);
+    expect_on_map(totals, store.map, console);
     if (totals.rejected > 0) {
         throw InputError{
             fmt::format("{} of {} rejected{}",
@@ -88,7 +89,7 @@ void run_import(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{
-    store_operand,
+    import_operand,
     Operand{"PATH",
             "Trip logs, phone exports, folders containing them (at any depth) or archives (.zip, "
             ".tar.gz).",

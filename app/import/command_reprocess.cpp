@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/import/import_outcome.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
@@ -25,7 +26,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     config.estimator.tracks = false; // as in an import
     const auto& words = arguments.operands("PATH");
     VehicleChoice vehicles{arguments};
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     auto store = opened_store(file, console);
     AskedTrips trips{{words.begin(), words.end()},
                      {.mapping = mapping_of(arguments),
@@ -37,8 +38,9 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
 
     const auto working =
         console.progress("reprocessing", {.name = "trip", .parts = TripProgress::whole_trip});
-    const ImportWork work{.pipeline = config, .jobs = jobs, .reprocess = true};
-    const auto totals = import_trips(store, trips, vehicles, work, working, tell);
+    const ImportWork work{.pipeline = config, .jobs = jobs, .restaged = &store.maintenance};
+    auto target = import_store_of(store);
+    const auto totals = import_trips(target, trips, vehicles, work, working, tell);
     if (totals.interrupted) {
         throw InputError{"interrupted: the database is unchanged"};
     }
@@ -64,7 +66,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{
-    store_operand,
+    import_operand,
     Operand{"PATH", "Logs of trips that are already in the database, in any folders.", true}};
 
 } // namespace

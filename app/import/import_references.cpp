@@ -97,12 +97,12 @@ KnownRoughness parse_known_roughness(const Arguments& arguments) {
 }
 
 SurveyOutcome
-import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& known) {
+import_survey(ImportTarget& trips, const RoadNetwork& roads, const KnownRoughness& known) {
     const auto survey = read_reference(*known.survey, known.mm_per_m_of_one);
     SurveyOutcome outcome{.file = known.survey->string(),
                           .name = known.name,
                           .sha256 = survey.sha256,
-                          .known = store.contains_trip(survey.sha256),
+                          .known = trips.contains_trip(survey.sha256),
                           .rows = survey.rows.size(),
                           .relative_sd = known.relative_sd,
                           .utc_ms = known.utc_ms,
@@ -113,7 +113,7 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
                                       "options say now");
         return outcome;
     }
-    if (store.has_forgotten(survey.sha256) && !known.readmit) {
+    if (trips.has_forgotten(survey.sha256) && !known.readmit) {
         throw InputError{fmt::format("{}: was permanently deleted on request; --take-back "
                                      "re-admits it",
                                      outcome.file)};
@@ -131,7 +131,7 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
     }
     const auto record = record_of(outcome);
     const NewTrip trip{&record, outcome.found.passes, {}, known.readmit};
-    outcome.known = !store.importer.add_trips({&trip, 1}).front();
+    outcome.known = !trips.add_trips({&trip, 1}).front();
     return outcome;
 }
 

@@ -3,7 +3,7 @@
 #include "app/cli/arguments.hpp"
 #include "mapping/network/road_network.hpp"
 #include "mapping/surveys/reference_passes.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/import_store.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -69,7 +69,7 @@ struct SurveyOutcome {
 /// \throws InputError  if it cannot be read, none of its rows lies on the database's roads, or it
 ///                     was deleted and is not re-admitted.
 SurveyOutcome
-import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& known);
+import_survey(ImportTarget& trips, const RoadNetwork& roads, const KnownRoughness& known);
 
 /// Formats the result for people, with newlines, or as one JSON object with the keys of a trip's.
 std::string text_lines(const SurveyOutcome& outcome);

@@ -11,7 +11,6 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
-#include "storage/store/connection/import_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -56,21 +55,19 @@ std::string spoken(const OpenImport& earlier) {
 
 /// Records the start of an import, and says whether it continues an earlier one or runs beside
 /// another.
-void begin_import(RoadStore& store,
+void begin_import(ImportTarget& trips,
                   const std::string& name,
                   std::size_t trips_asked,
-                  const ImportLock& lock,
                   const Console& console) {
-    const bool same_runs = lock.is_other_running(name);
-    const auto earlier = store.importer.begin_import(name, trips_asked);
-    if (same_runs) {
+    const auto begun = trips.begin_import(name, trips_asked);
+    if (begun.same_runs) {
         console.say("another import of these paths is running; trips that it has stored are "
                     "skipped");
-    } else if (lock.is_other_running()) {
+    } else if (begun.other_runs) {
         console.say("another import into this database is running");
     }
-    if (earlier && !same_runs) {
-        console.say(spoken(*earlier));
+    if (begun.earlier && !begun.same_runs) {
+        console.say(spoken(*begun.earlier));
     }
 }
 
@@ -89,18 +86,19 @@ Progress until_it_takes_long(Progress fusing) {
 }
 
 /// \returns the number of segments, with those of the earlier fusions of the import.
-std::size_t fuse(RoadStore& store, const Console& console, FusionRecord record) {
+std::size_t fuse(ImportTarget& trips, const Console& console, FusionRecord record) {
     auto fusing = console.progress("fusing");
-    store.importer.refresh(
-        console.stop().stop_requested() ? until_it_takes_long(std::move(fusing)) : fusing, record);
+    trips.refresh(console.stop().stop_requested() ? until_it_takes_long(std::move(fusing)) : fusing,
+                  record);
     return record.segments.size();
 }
 
-void expect_all_fused(const StoreReader& store, const Console& console) {
-    if (console.stop().stop_requested() && store.waiting() > 0) {
+void expect_all_fused(ImportTarget& trips, const Console& console) {
+    const auto waiting = console.stop().stop_requested() ? trips.waiting() : 0;
+    if (waiting > 0) {
         throw InputError{fmt::format("interrupted: all trips are in the database, but {} are "
                                      "not fused yet; run the same command again to continue",
-                                     counted(store.waiting(), "segment"))};
+                                     counted(waiting, "segment"))};
     }
 }
 
@@ -141,12 +139,12 @@ ImportOptions parse_import(const Arguments& arguments) {
             .max_members = max_members_of(arguments)};
 }
 
-ImportTotals import_paths(RoadStore& store,
+ImportTotals import_paths(ImportStore& store,
                           const std::vector<std::filesystem::path>& paths,
                           const ImportOptions& options,
                           VehicleChoice& vehicles,
                           const Console& console) {
-    make_missing_key(store, console);
+    make_missing_key(*store.trips, console);
     AskedTrips trips{paths,
                      {.mapping = options.mapping,
                       .positions = options.positions,
@@ -154,9 +152,7 @@ ImportTotals import_paths(RoadStore& store,
                      console};
     const auto name =
         name_of_import(options.named_after.empty() ? paths : std::vector{options.named_after});
-    const ImportLock lock{store.file(), name}; // before the journal: others would find an entry
-                                               // that seems to be that of a killed import
-    begin_import(store, name, trips.count().value_or(0), lock, console);
+    begin_import(*store.trips, name, trips.count().value_or(0), console);
 
     auto totals = import_trips(
         store,
@@ -174,21 +170,22 @@ ImportTotals import_paths(RoadStore& store,
                 print_report(trip, options.json, console);
             }
         });
-    const auto fused = fuse(store, console, totals.fusion);
+    const auto fused = fuse(*store.trips, console, totals.fusion);
     say_totals(totals, fused, console);
-    if (const auto words = alignment_summary_text(store.alignment()); fused > 0 && !words.empty()) {
+    if (const auto words = alignment_summary_text(store.trips->alignment());
+        fused > 0 && !words.empty()) {
         console.say(words);
     }
     expect_all_read(totals, trips);
     trips.tell_rest(console);
-    expect_all_fused(store, console);
-    store.importer.end_import(name);
+    expect_all_fused(*store.trips, console);
+    store.trips->end_import(name);
     return totals;
 }
 
-std::size_t fuse_new_passes(RoadStore& store, const Console& console) {
-    const auto fused = fuse(store, console, {});
-    expect_all_fused(store, console);
+std::size_t fuse_new_passes(ImportStore& store, const Console& console) {
+    const auto fused = fuse(*store.trips, console, {});
+    expect_all_fused(*store.trips, console);
     return fused;
 }
 

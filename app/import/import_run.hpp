@@ -5,7 +5,7 @@
 #include "app/import/import_trips.hpp"
 #include "app/pipeline/pipeline.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/import_store.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -41,7 +41,7 @@ ImportOptions parse_import(const Arguments& arguments);
 /// and a journal in the database tell others of the import, and the next one of an interruption.
 ///
 /// \throws InputError  after a stop request, if trips or segments are left.
-ImportTotals import_paths(RoadStore& store,
+ImportTotals import_paths(ImportStore& store,
                           const std::vector<std::filesystem::path>& paths,
                           const ImportOptions& options,
                           VehicleChoice& vehicles,
@@ -51,6 +51,6 @@ ImportTotals import_paths(RoadStore& store,
 ///
 /// \returns the number of segments.
 /// \throws InputError  after a stop request, if segments are left.
-std::size_t fuse_new_passes(RoadStore& store, const Console& console);
+std::size_t fuse_new_passes(ImportStore& store, const Console& console);
 
 } // namespace macadam

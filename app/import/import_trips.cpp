@@ -37,10 +37,10 @@ void put(const ImportContext& context, std::vector<ProcessedTrip>& trips) {
         return;
     }
     const std::scoped_lock lock{context.store_in_use};
-    if (context.work.reprocess) {
+    if (context.work.restaged != nullptr) {
         for (auto* const trip : made) {
             auto& report = trip->report;
-            if (!context.store.maintenance.stage_trip(
+            if (!context.work.restaged->stage_trip(
                     {&trip->record, trip->passes, trip->traces, false, trip->events})) {
                 report.result = Result::unknown;
             }
@@ -52,7 +52,7 @@ void put(const ImportContext& context, std::vector<ProcessedTrip>& trips) {
         together.push_back(
             {&trip->record, trip->passes, trip->traces, context.work.readmit, trip->events});
     }
-    const auto is_new = context.store.importer.add_trips(together);
+    const auto is_new = context.store.trips->add_trips(together);
     for (std::size_t i = 0; i < made.size(); ++i) {
         made[i]->report.result = is_new[i] ? Result::imported : Result::known;
     }
@@ -147,12 +147,12 @@ private:
     }
 
     void fuse_if_due() {
-        if (!has_unfused_ || context_.work.reprocess || Clock::now() < fuse_at_) {
+        if (!has_unfused_ || context_.work.restaged != nullptr || Clock::now() < fuse_at_) {
             return;
         }
         const auto begin = Clock::now();
         const std::scoped_lock lock{context_.store_in_use};
-        context_.store.importer.refresh({.report = {}, .stop = progress_.stop}, totals_.fusion);
+        context_.store.trips->refresh({.report = {}, .stop = progress_.stop}, totals_.fusion);
         has_unfused_ = false;
         fuse_at_ = Clock::now() +
                    std::max<Clock::duration>(context_.work.fuse_every, 4 * (Clock::now() - begin));
@@ -194,13 +194,13 @@ std::string_view name_of(TripReport::Result result) {
     return "rejected";
 }
 
-ImportTotals import_trips(RoadStore& store,
+ImportTotals import_trips(ImportStore& store,
                           AskedTrips& trips,
                           VehicleChoice& vehicles,
                           const ImportWork& asked,
                           const Progress& progress,
                           const std::function<void(const TripReport&)>& tell) {
-    const auto roads = load_or_build_network(store, asked.warn);
+    const auto roads = load_or_build_network(store.map, asked.warn);
     auto work = asked;
     work.pipeline.trim = trim_in(store, asked.pipeline.trim);
     std::mutex store_in_use;

@@ -4,7 +4,7 @@
 #include "app/import/trip_inputs.hpp"
 #include "app/pipeline/pipeline.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/import_store.hpp"
 
 #include <chrono>
 #include <functional>
@@ -54,10 +54,11 @@ struct ImportTotals {
 /// Options of an import: how trips are estimated, and which of them are stored.
 struct ImportWork {
     PipelineConfig pipeline;
-    std::size_t jobs = 1;   ///< threads that read and estimate
-    bool reprocess = false; ///< only trips that are in the database, which stages them anew
-                            ///< (StoreMaintenance::stage_trip); otherwise only trips that are not
-    bool readmit = false;   ///< include trips that were forgotten
+    std::size_t jobs = 1; ///< threads that read and estimate
+    /// Takes the new results of trips that are in the database, of which others are skipped
+    /// (StoreMaintenance::stage_trip). Null: trips that are not in the database are imported.
+    StoreMaintenance* restaged = nullptr;
+    bool readmit = false; ///< include trips that were forgotten
     /// Pause between fusions of committed trips, which show them to readers. Longer where fusing
     /// takes long, so that it takes at most a fifth of the time.
     std::chrono::milliseconds fuse_every{45'000};
@@ -71,7 +72,7 @@ struct ImportWork {
 /// `fuse_every`, those of the last trips are left to the caller. Progress counts thousandths of
 /// trips. An error of the database itself is thrown; trips committed before stay. On a stop request
 /// the current trip is finished or dropped and the rest is skipped.
-ImportTotals import_trips(RoadStore& store,
+ImportTotals import_trips(ImportStore& store,
                           AskedTrips& trips,
                           VehicleChoice& vehicles,
                           const ImportWork& work,

@@ -70,13 +70,13 @@ std::vector<std::string> known_text(const TrimRule& trim) {
 std::vector<std::string> unchanged_car_text(const ImportContext& context,
                                             const std::string& sha256) {
     const auto& car = context.vehicles.named_car();
-    if (!car || context.store.is_trip_of(sha256, *car)) {
+    if (!car || context.store.trips->is_trip_of(sha256, *car)) {
         return {};
     }
     return {
         fmt::format("was imported for another car, or for none; its car is unchanged. To change "
                     "it: macadam forget {} --trip {}, then import it again with --take-back",
-                    context.store.file().string(),
+                    context.store.name.string(),
                     sha256)};
 }
 
@@ -92,7 +92,7 @@ void name_stored_car(const ImportContext& context,
         throw InputError{contradiction.front()};
     }
     const auto stored = std::ranges::find_if(
-        names, [&](const auto& name) { return context.store.is_trip_of(sha256, name); });
+        names, [&](const auto& name) { return context.store.trips->is_trip_of(sha256, name); });
     if (meta.vehicle_id.empty() && stored != names.end()) {
         meta.vehicle_id = *stored;
     }
@@ -101,7 +101,7 @@ void name_stored_car(const ImportContext& context,
 /// Returns the settings with which a trip was imported, as far as the database keeps them and
 /// others are asked for: "--method kf --vehicle van"; "" = none.
 std::string earlier_settings(const ImportContext& context, const std::string& sha256) {
-    const auto earlier = context.store.settings_of_trip(sha256);
+    const auto earlier = context.store.trips->settings_of_trip(sha256);
     std::vector<std::string> words;
     if (earlier && earlier->method != name_of(context.work.pipeline.estimator.method)) {
         words.push_back("--method " + earlier->method);
@@ -126,8 +126,8 @@ bool is_skipped(const ImportContext& context, const std::string& sha256, TripRep
     };
     report.sha256 = sha256;
     const std::scoped_lock lock{context.store_in_use};
-    const bool is_known = context.store.contains_trip(sha256);
-    if (context.work.reprocess) {
+    const bool is_known = context.store.trips->contains_trip(sha256);
+    if (context.work.restaged != nullptr) {
         return !is_known &&
                skip(Result::unknown, {"is not in the database: import it with 'macadam import'"});
     }
@@ -137,7 +137,7 @@ bool is_skipped(const ImportContext& context, const std::string& sha256, TripRep
         report.earlier_settings = earlier_settings(context, sha256);
         return skip(Result::known, std::move(warnings));
     }
-    return !context.work.readmit && context.store.has_forgotten(sha256) &&
+    return !context.work.readmit && context.store.trips->has_forgotten(sha256) &&
            skip(Result::known, {"was permanently deleted on request; --take-back re-admits it"});
 }
 
@@ -187,7 +187,7 @@ void add_passes(ProcessedTrip& trip,
     auto& report = trip.report;
     with_trip_name(report.file, [&] {
         context.vehicles.name_car(log.meta);
-        if (context.work.reprocess) {
+        if (context.work.restaged != nullptr) {
             name_stored_car(context, source, report.sha256, log.meta);
         }
     });
@@ -245,11 +245,11 @@ ProcessedTrip process_trip(const ImportContext& context, const TripSource& sourc
     if (report.error.empty()) {
         if (report.outside_at) {
             report.warnings.clear(); // about values that are not stored
-            report.is_stored = context.work.reprocess;
+            report.is_stored = context.work.restaged != nullptr;
         }
-        report.result = report.outside_at        ? Result::outside
-                        : context.work.reprocess ? Result::reprocessed
-                                                 : Result::imported;
+        report.result = report.outside_at                  ? Result::outside
+                        : context.work.restaged != nullptr ? Result::reprocessed
+                                                           : Result::imported;
     } else if (report.rows.read > 0) {
         report.rows.reasons = {{"trip_rejected", report.rows.read}};
     }

@@ -12,7 +12,7 @@ namespace macadam {
 
 /// State that the workers of an import share.
 struct ImportContext {
-    RoadStore& store;
+    ImportStore& store;
     std::mutex& store_in_use;
     VehicleChoice& vehicles;
     const RoadNetwork& roads;

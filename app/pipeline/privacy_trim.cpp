@@ -97,12 +97,12 @@ MatchedTrace within(const MatchedTrace& matched, const TravelSpan& part, const R
 
 } // namespace
 
-TrimRule trim_in(RoadStore& store, TrimRule asked) {
-    if (store.settings().privacy != PrivacyProfile::crowd) {
+TrimRule trim_in(ImportStore& store, TrimRule asked) {
+    if (store.map.settings().privacy != PrivacyProfile::crowd) {
         return asked;
     }
-    store.importer.make_missing_key();
-    auto rule = crowd_trim(*store.key());
+    store.trips->make_missing_key();
+    auto rule = crowd_trim(*store.trips->key());
     rule.min_m = std::max(rule.min_m, asked.min_m);
     return rule;
 }

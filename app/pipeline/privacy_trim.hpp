@@ -4,7 +4,7 @@
 #include "estimator/motion/odometer.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/privacy/trip_trimming.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/import_store.hpp"
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace macadam {
 
 /// Returns the trim rule of trips that enter a database. A crowd database draws it from its key,
 /// with the requested length as minimum. Creates the key if it is missing.
-TrimRule trim_in(RoadStore& store, TrimRule asked);
+TrimRule trim_in(ImportStore& store, TrimRule asked);
 
 /// Returns the rule for one trip: inactive if its log states that the recorder left out at least as
 /// much (`trimmed_m`), otherwise the rule as it is, since the log does not show where the trip

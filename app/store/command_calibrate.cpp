@@ -4,6 +4,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/output/units_option.hpp"
 #include "app/store/calibration_output.hpp"
 
@@ -45,7 +46,7 @@ void write_rows(const CalibrationReport& report,
 }
 
 void run_calibrate(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     const auto format = row_format_of(arguments);
     const auto output = row_file_of(arguments);
     if (output) {
@@ -70,7 +71,7 @@ void run_calibrate(const Arguments& arguments, const Console& console) {
                      : std::string{"the database is unchanged (--dry-run)"});
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{import_operand};
 constexpr std::array options{
     Option{"--dry-run",
            "",

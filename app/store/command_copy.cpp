@@ -52,10 +52,7 @@ void run_copy(const Arguments& arguments, const Console& console) {
     const auto progress = console.progress("copying");
     const auto copy = to_server ? copy_to_server(from, to, wait_policy_for(from, console), progress)
                                 : copy_from_server(from, to, progress);
-    if (copy.by_superuser) {
-        console.warn("connected as a superuser of the server: a role that owns its database is "
-                     "enough");
-    }
+    warn_of_superuser(copy, console);
     if (arguments.flag("--json")) {
         print(json_of(copy));
     } else {
@@ -65,11 +62,11 @@ void run_copy(const Arguments& arguments, const Console& console) {
                                 counted(copy.passes, "pass"),
                                 copy.digest));
     }
-    const auto key = key_file_of(to_server ? from : to).string();
-    console.say(to_server ? fmt::format("{}: keep this key, it was not copied", key)
-                          : fmt::format("{}: put the key of the first database here before you "
-                                        "import trips",
-                                        key));
+    console.say(
+        read_key(copy.key_file)
+            ? fmt::format("{}: key of the cars, not on the server; keep it", copy.key_file.string())
+            : fmt::format("{}: put the key of the cars here before you import trips",
+                          copy.key_file.string()));
 }
 
 constexpr std::array operands{

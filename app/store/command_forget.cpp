@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/uploads/upload_work.hpp"
 
 #include "storage/text/json.hpp"
@@ -24,7 +25,7 @@ std::string json_of(const Forgotten& forgotten) {
 }
 
 void run_forget(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     const ForgetRequest request{.trips = arguments.values("--trip"),
                                 .vehicles = arguments.values("--vehicle-id")};
     if (request.trips.empty() && request.vehicles.empty()) {
@@ -53,7 +54,7 @@ void run_forget(const Arguments& arguments, const Console& console) {
     }
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{import_operand};
 constexpr std::array options{
     Option{"--trip", "TRIP", "Trips by trip_id, file name or SHA-256 of the content.", "", true},
     formerly("--vehicle",

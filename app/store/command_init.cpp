@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
+#include "app/database/server_store.hpp"
 #include "app/import/trip_inputs.hpp"
 #include "app/store/network_around_trips.hpp"
 #include "app/store/network_update_output.hpp"
@@ -10,6 +11,7 @@
 #include "mapping/network/build_network.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/network_reader.hpp"
+#include "storage/postgres/server_address.hpp"
 #include "storage/store/road_store.hpp"
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/text/text.hpp"
@@ -55,8 +57,9 @@ TripPaths trips_in(const Arguments& arguments, std::string_view option) {
 
 InitOptions parse_init(const Arguments& arguments) {
     InitOptions options;
-    options.store = arguments.operand("STORE");
-    if (options.store.extension() != ".gpkg") {
+    options.store = file_or_server(arguments);
+    const bool is_on_server = is_server_address(options.store.string());
+    if (!is_on_server && options.store.extension() != ".gpkg") {
         throw UsageError{fmt::format("STORE is '{}', expected a name that ends in .gpkg",
                                      options.store.string())};
     }
@@ -89,6 +92,9 @@ InitOptions parse_init(const Arguments& arguments) {
         throw UsageError{"--privacy cannot be changed by --update"};
     }
     options.privacy = privacy_in(arguments);
+    if (options.privacy == PrivacyProfile::crowd && is_on_server) {
+        throw UsageError{"--privacy crowd works with a .gpkg file only so far"};
+    }
     if (options.privacy == PrivacyProfile::crowd && is_traced) {
         throw UsageError{
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "
@@ -192,12 +198,7 @@ void make_store(const InitOptions& options, const Console& console) {
     settings.privacy = options.privacy;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     tell_of_size(roads, options, console);
-    const auto store =
-        RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
-
-    cache_network(store, roads);
-
-    const auto info = store.info();
+    const auto info = create_store(options.store, roads, settings, console);
     console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",
                             options.store.string(),
                             counted(way_count(roads), "way"),
@@ -249,7 +250,9 @@ void run_init(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{Operand{
-    "STORE", "The road database to create, a new .gpkg file; with --update an existing one."}};
+    "STORE",
+    "The road database to create: a new .gpkg file, or postgresql://... of a server's database "
+    "without one; with --update an existing one."}};
 
 constexpr std::array options{
     Option{"--network",

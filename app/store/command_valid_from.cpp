@@ -5,6 +5,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/text/columns.hpp"
@@ -60,7 +61,7 @@ std::vector<SegmentKey> segments_named(const StoreReader& store, const Arguments
 }
 
 void run_valid_from(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     if (const auto output = row_file_of(arguments)) {
         refuse_to_replace(*output, {file});
     }
@@ -92,7 +93,7 @@ void run_valid_from(const Arguments& arguments, const Console& console) {
                         : fmt::format("{}: all passes count", counted(found, "segment")));
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{import_operand};
 constexpr std::array options{
     formerly("--from", {"--since", "TIME", "Start date: 2026-05-01, or a time in UTC."}),
     Option{"--any-day", "", "Clear the start date."},

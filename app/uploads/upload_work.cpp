@@ -159,7 +159,8 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
                 work.tell(report);
             }
         };
-        import_paths(store, files, options, vehicles, console);
+        auto target = import_store_of(store);
+        import_paths(target, files, options, vehicles, console);
     } catch (...) {
         for (const auto& one : taken) {
             put_back(uploads, one.upload());

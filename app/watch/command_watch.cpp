@@ -1,6 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/import/import_outcome.hpp"
 #include "app/import/import_run.hpp"
 #include "app/import/trip_options.hpp"
@@ -32,11 +32,11 @@ void import_batch(const fs::path& file,
                   const Arguments& arguments,
                   const Console& console) {
     VehicleChoice vehicles{arguments}; // also of cars that were added meanwhile
-    auto store = opened_store(file, console);
+    auto store = opened_for_import(file, console);
     const auto totals = import_paths(store, trips, options, vehicles, console);
     warn_of_earlier_settings(totals, file, options.named_after, console);
     try {
-        expect_on_map(totals, store, console);
+        expect_on_map(totals, store.map, console);
     } catch (const InputError& all_outside) {
         console.warn(all_outside.what());
     }
@@ -78,7 +78,7 @@ std::vector<fs::path> take(SettledTrips& trips,
 }
 
 void run_watch(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     const fs::path folder = arguments.operand("FOLDER");
     auto options = parse_import(arguments);
     options.named_after = folder;
@@ -88,8 +88,8 @@ void run_watch(const Arguments& arguments, const Console& console) {
                                      "appear",
                                      folder.string())};
     }
-    static_cast<void>(VehicleChoice{arguments});    // refuses bad values at once,
-    static_cast<void>(opened_store(file, console)); // as well as a bad database
+    static_cast<void>(VehicleChoice{arguments});         // refuses bad values at once,
+    static_cast<void>(opened_for_import(file, console)); // as well as a bad database
 
     FolderChanges changes{folder};
     SettledTrips trips{folder, {.mapping = options.mapping, .max_files = options.max_members}};
@@ -120,7 +120,7 @@ void run_watch(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{
-    store_operand, Operand{"FOLDER", "The folder in which trip logs appear, at any depth."}};
+    import_operand, Operand{"FOLDER", "The folder in which trip logs appear, at any depth."}};
 
 constexpr auto options = trip_options_and(std::array{trim_option});
 

@@ -1,6 +1,7 @@
 #include "storage/postgres/server_connection.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/exact_number.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/text/text.hpp"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 namespace macadam {
@@ -155,17 +155,30 @@ ServerConnection::rows(const std::string& sql,
     return rows;
 }
 
-std::int64_t ServerConnection::number(const std::string& sql) {
-    const auto found = rows(sql);
-    std::int64_t value = 0;
-    if (found.size() == 1 && found[0].size() == 1 && found[0][0]) {
-        const auto& text = *found[0][0];
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc{} && end == text.data() + text.size()) {
-            return value;
+std::vector<std::int64_t>
+ServerConnection::numbers(const std::string& sql,
+                          const std::vector<std::optional<std::string>>& values) {
+    std::vector<std::int64_t> numbers;
+    for (const auto& row : rows(sql, values)) {
+        for (const auto& value : row) {
+            const auto number = value ? exact_number<std::int64_t>(*value) : std::nullopt;
+            if (!number) {
+                throw InputError{
+                    fmt::format("{}: the server gave no number where one was expected", address_)};
+            }
+            numbers.push_back(*number);
         }
     }
-    throw InputError{fmt::format("{}: the server gave no number where one was expected", address_)};
+    return numbers;
+}
+
+std::int64_t ServerConnection::number(const std::string& sql) {
+    const auto found = numbers(sql);
+    if (found.size() != 1) {
+        throw InputError{fmt::format(
+            "{}: the server gave {} numbers where one was expected", address_, found.size())};
+    }
+    return found.front();
 }
 
 void ServerConnection::begin(bool reads_only) {
@@ -189,6 +202,17 @@ void ServerConnection::commit() {
                                      address_,
                                      warnings_->front())};
     }
+}
+
+ServerTransaction::~ServerTransaction() {
+    if (is_open_) { // also ends a COPY; a broken connection rolls back by itself
+        const Result ignored{PQexec(server_->handle(), "ROLLBACK")};
+    }
+}
+
+void ServerTransaction::commit() {
+    is_open_ = false; // whatever the server answers
+    server_->commit();
 }
 
 std::vector<std::string> ServerConnection::take_warnings() {

@@ -40,6 +40,10 @@ public:
     std::vector<ServerRow> rows(const std::string& sql,
                                 const std::vector<std::optional<std::string>>& values = {});
 
+    /// Numbers of all columns, row by row.
+    std::vector<std::int64_t> numbers(const std::string& sql,
+                                      const std::vector<std::optional<std::string>>& values = {});
+
     /// First column of the only row.
     std::int64_t number(const std::string& sql);
 
@@ -67,6 +71,25 @@ private:
     std::string address_;
     std::unique_ptr<std::vector<std::string>> warnings_; ///< fixed address for the callback
     std::unique_ptr<pg_conn, Finish> connection_;
+};
+
+/// Transaction that is rolled back unless committed.
+class ServerTransaction {
+public:
+    explicit ServerTransaction(ServerConnection& server, bool reads_only = false)
+        : server_{&server} {
+        server.begin(reads_only);
+    }
+    ServerTransaction(const ServerTransaction&) = delete;
+    ServerTransaction& operator=(const ServerTransaction&) = delete;
+    ~ServerTransaction();
+
+    /// As ServerConnection::commit().
+    void commit();
+
+private:
+    ServerConnection* server_;
+    bool is_open_ = true;
 };
 
 } // namespace macadam

@@ -19,8 +19,7 @@ namespace {
 /// Reads the key beside a database, if any.
 ///
 /// \throws InputError  if it belongs to another database.
-std::optional<PrivacyKey> read_own_key(Database& database) {
-    const auto file = key_file_of(database.file());
+std::optional<PrivacyKey> read_own_key(Database& database, const std::filesystem::path& file) {
     auto key = read_key(file);
     if (key && key->id() != read_key_id(database)) {
         throw InputError{fmt::format(
@@ -36,14 +35,15 @@ std::optional<PrivacyKey> read_own_key(Database& database) {
 
 StoreConnection::StoreConnection(const std::filesystem::path& file,
                                  Database::Access access,
-                                 LockWaitPolicy wait_policy)
-    : database{file, access, {}, std::move(wait_policy)} {
+                                 LockWaitPolicy wait_policy,
+                                 const std::filesystem::path& known_as)
+    : database{file, access, known_as, std::move(wait_policy)}, key_file{key_file_of(file)} {
     add_geometry_functions(database);
     register_row_callback(database);
     check_store(database);
     settings = read_settings(database);
     network_hash = read_network_hash(database);
-    key = read_own_key(database);
+    key = read_own_key(database, key_file);
     if (access == Database::Access::write) { // after check_store()
         database.enable_wal();
     }
@@ -71,20 +71,19 @@ bool StoreConnection::make_missing_key() {
         return false;
     }
     Transaction alone{database, Transaction::Kind::write}; // two imports must not create two keys
-    key = read_own_key(database);
+    key = read_own_key(database, key_file);
     if (key) {
         return false;
     }
     const auto made = PrivacyKey::make();
     put_key_id(database, made.id());
     add_last_of_key(database);
-    const auto file = key_file_of(database.file());
-    write_key(file, made);
+    write_key(key_file, made);
     try {
         alone.commit();
     } catch (...) {
         std::error_code ignored;
-        std::filesystem::remove(file, ignored);
+        std::filesystem::remove(key_file, ignored);
         throw;
     }
     key = made;
@@ -98,9 +97,10 @@ std::string StoreConnection::pseudonym(const std::string& vehicle_id) const {
 std::shared_ptr<StoreConnection> open_connection(const std::filesystem::path& file,
                                                  Database::Access access,
                                                  LockWaitPolicy wait_policy,
-                                                 Audience audience) {
+                                                 Audience audience,
+                                                 const std::filesystem::path& known_as) {
     expect_store_file(file);
-    auto store = std::make_shared<StoreConnection>(file, access, std::move(wait_policy));
+    auto store = std::make_shared<StoreConnection>(file, access, std::move(wait_policy), known_as);
     const bool sees_all = audience == Audience::operator_ && store->key;
     if (store->settings.privacy == PrivacyProfile::crowd && access == Database::Access::read &&
         !sees_all) {

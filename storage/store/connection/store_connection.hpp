@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/common/progress.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
 #include "storage/sqlite/sqlite.hpp"
@@ -10,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,9 +21,12 @@ namespace macadam {
 /// Open database, shared by its reader, importer and maintenance.
 struct StoreConnection {
     /// Opens a database that is an SQLite file.
+    ///
+    /// \param known_as  name for messages, if it differs from the file name.
     StoreConnection(const std::filesystem::path& file,
                     Database::Access access,
-                    LockWaitPolicy wait_policy);
+                    LockWaitPolicy wait_policy,
+                    const std::filesystem::path& known_as = {});
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }
 
@@ -39,12 +44,22 @@ struct StoreConnection {
     /// Pseudonym of a car; without a key, only of "", the unknown car.
     std::string pseudonym(const std::string& vehicle_id) const;
 
+    /// Makes what was written durable where the user wants it: for a copy of a database on a
+    /// server, there. Called at the end of each operation that writes.
+    void written(const Progress& progress) {
+        if (after_write) {
+            after_write(progress);
+        }
+    }
+
     Database database;
     StatementCache statements{database};
     StoreSettings settings;
     std::string network_hash; ///< at the time of opening
+    std::filesystem::path key_file;
     std::optional<PrivacyKey> key;
-    bool published_alone = false; ///< see StoreReader::shows_published_alone()
+    std::function<void(const Progress&)> after_write; ///< see written()
+    bool published_alone = false;                     ///< see StoreReader::shows_published_alone()
 };
 
 /// Opens a database and checks that this program made it. Readers other than the operator see only
@@ -54,6 +69,7 @@ struct StoreConnection {
 std::shared_ptr<StoreConnection> open_connection(const std::filesystem::path& file,
                                                  Database::Access access,
                                                  LockWaitPolicy wait_policy,
-                                                 Audience audience);
+                                                 Audience audience,
+                                                 const std::filesystem::path& known_as = {});
 
 } // namespace macadam

@@ -105,6 +105,7 @@ std::vector<bool> TripImporter::add_trips(std::span<const NewTrip> trips) {
     }
     writer.flush();
     all.commit();
+    store_->written({});
     return added;
 }
 
@@ -116,11 +117,13 @@ std::optional<OpenImport> TripImporter::begin_import(const std::string& name,
     database.prepare("INSERT OR IGNORE INTO import_note VALUES (?, ?, ?)")
         .run(name, static_cast<std::int64_t>(trips_asked), count_of_trips(database));
     all.commit();
+    store_->written({});
     return earlier;
 }
 
 void TripImporter::end_import(const std::string& name) {
     store_->database.prepare("DELETE FROM import_note WHERE name = ?").run(name);
+    store_->written({});
 }
 
 std::size_t TripImporter::refresh(const Progress& progress) {
@@ -129,8 +132,10 @@ std::size_t TripImporter::refresh(const Progress& progress) {
 }
 
 std::size_t TripImporter::refresh(const Progress& progress, FusionRecord& record) {
-    return fuse_dirty(
+    const auto fused = fuse_dirty(
         store_->database, store_->segments_per_chunk(), store_->classes(), progress, record);
+    store_->written(progress);
+    return fused;
 }
 
 } // namespace macadam

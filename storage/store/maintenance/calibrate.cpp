@@ -52,6 +52,7 @@ CalibrationReport StoreMaintenance::calibrate(const Progress& progress) {
                       store_->classes(),
                       {build_shadow, drop_shadow_calibration, apply},
                       progress);
+    store_->written(progress);
     return *report;
 }
 

@@ -29,6 +29,7 @@ void StoreMaintenance::put_control_sections(std::span<const ControlSection> sect
                    section.utc_ms);
     }
     all.commit();
+    store_->written({});
 }
 
 } // namespace macadam

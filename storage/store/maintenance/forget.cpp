@@ -259,6 +259,7 @@ Forgotten StoreMaintenance::forget(const ForgetRequest& request, const Progress&
                       store_->classes(),
                       {build_shadow, drop_shadow.c_str(), apply},
                       progress);
+    store_->written(progress);
     forgotten.log_is_clean = database.checkpoint_wal();
     return forgotten;
 }

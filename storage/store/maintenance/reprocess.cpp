@@ -230,6 +230,7 @@ Reprocessed StoreMaintenance::commit_staged(std::string_view how, const Progress
                       {build_shadow, drop_shadow.c_str(), apply},
                       progress);
     database.run(drop_staging_tables);
+    store_->written(progress);
     return done;
 }
 

@@ -98,6 +98,7 @@ NetworkUpdate StoreMaintenance::update_network(const RoadNetwork& before,
     all.commit();
     store_->network_hash = hash;
     store_->settings = read_settings(database);
+    store_->written(progress);
     return update;
 }
 

@@ -87,6 +87,7 @@ std::size_t StoreMaintenance::set_valid_from(std::span<const SegmentKey> segment
                       store_->classes(),
                       {build_shadow, "DROP TABLE IF EXISTS temp.valid_from", apply},
                       progress);
+    store_->written(progress);
     return rows.size();
 }
 

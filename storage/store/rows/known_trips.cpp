@@ -3,15 +3,12 @@
 #include "storage/files/sha256.hpp"
 
 namespace macadam {
-namespace {
 
-std::string mark_of(const std::string& sha256) {
+std::string forgotten_mark(const std::string& sha256) {
     Sha256 hash;
     hash.add("macadam forgot " + sha256);
     return hash.hex();
 }
-
-} // namespace
 
 std::optional<std::int64_t> row_of_trip(Database& database, const std::string& sha256) {
     auto select = database.prepare("SELECT id FROM trip WHERE sha256 = ?");
@@ -19,15 +16,17 @@ std::optional<std::int64_t> row_of_trip(Database& database, const std::string& s
 }
 
 bool is_forgotten(Database& database, const std::string& sha256) {
-    return database.prepare("SELECT 1 FROM forgotten WHERE mark = ?").bind(mark_of(sha256)).step();
+    return database.prepare("SELECT 1 FROM forgotten WHERE mark = ?")
+        .bind(forgotten_mark(sha256))
+        .step();
 }
 
 void mark_forgotten(Database& database, const std::string& sha256) {
-    database.prepare("INSERT OR IGNORE INTO forgotten VALUES (?)").run(mark_of(sha256));
+    database.prepare("INSERT OR IGNORE INTO forgotten VALUES (?)").run(forgotten_mark(sha256));
 }
 
 void unmark_forgotten(Database& database, const std::string& sha256) {
-    database.prepare("DELETE FROM forgotten WHERE mark = ?").run(mark_of(sha256));
+    database.prepare("DELETE FROM forgotten WHERE mark = ?").run(forgotten_mark(sha256));
 }
 
 } // namespace macadam

@@ -17,6 +17,26 @@ std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
 
 } // namespace
 
+std::vector<NumberedEvent> numbered_events(std::span<const PassEvent> events) {
+    std::vector<NumberedEvent> numbered;
+    for (const auto& event : events) {
+        numbered.push_back({0, event});
+    }
+    const auto pass_of = [](const PassEvent& event) {
+        return std::tuple{event.segment, event.occurrence};
+    };
+    std::ranges::sort(numbered, {}, [&](const NumberedEvent& one) {
+        const auto& event = one.event;
+        return std::tuple{pass_of(event), event.at_mm, event.kind, event.track, event.size_um};
+    });
+    for (std::size_t i = 1; i < numbered.size(); ++i) {
+        const auto& before = numbered[i - 1];
+        numbered[i].number =
+            pass_of(numbered[i].event) == pass_of(before.event) ? before.number + 1 : 0;
+    }
+    return numbered;
+}
+
 PassWriter::PassWriter(Database& database, std::int64_t segments_per_chunk, Destination destination)
     : marks_{destination == Destination::kept}, segments_{database, segments_per_chunk},
       add_pass_{database, marks_ ? "INSERT INTO pass" : "INSERT INTO staged_pass", 15},
@@ -60,19 +80,8 @@ void PassWriter::write_pass(std::int64_t segment, std::int64_t trip, const Pass&
     add_pass_row(add_pass_, segment, trip, pass, whole(pass.drive));
 }
 
-/// Numbers the events of each pass in the order along the way.
 void PassWriter::write_events(std::int64_t trip, std::span<const PassEvent> events) {
-    std::vector<PassEvent> sorted{events.begin(), events.end()};
-    const auto pass_of = [](const PassEvent& event) {
-        return std::tuple{event.segment, event.occurrence};
-    };
-    std::ranges::sort(sorted, {}, [&](const PassEvent& event) {
-        return std::tuple{pass_of(event), event.at_mm, event.kind, event.track, event.size_um};
-    });
-    std::int64_t number = 0;
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        const auto& event = sorted[i];
-        number = i > 0 && pass_of(event) == pass_of(sorted[i - 1]) ? number + 1 : 0;
+    for (const auto& [number, event] : numbered_events(events)) {
         add_event_.add(segments_.row_of(event.segment),
                        trip,
                        std::int64_t{event.occurrence},

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <unordered_set>
+#include <vector>
 
 namespace macadam {
 
@@ -18,6 +19,15 @@ enum class Destination {
     kept,  ///< permanent tables
     staged ///< temporary tables of the connection (storage/store/maintenance/reprocess.cpp)
 };
+
+/// Event with its number within its pass, from 0.
+struct NumberedEvent {
+    std::int64_t number;
+    PassEvent event;
+};
+
+/// Numbers the events of each pass in the order along the way.
+std::vector<NumberedEvent> numbered_events(std::span<const PassEvent> events);
 
 /// Writes passes, traces and events of trips and, in permanent tables, marks their segments and
 /// chunks as dirty. Use it within one transaction, because it caches look-ups.

@@ -16,6 +16,7 @@
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
 #include "storage/store/server/store_copy.hpp"
+#include "storage/store/server/user_files.hpp"
 
 #include <fmt/format.h>
 
@@ -50,10 +51,18 @@ void extend(GeoBox& box, const GeoPoint& at) {
     box.north_deg = std::max(box.north_deg, at.lat_deg);
 }
 
+enum class Part {
+    all,
+    network ///< roads and settings, no trips
+};
+
 class CopyFromServer {
 public:
-    CopyFromServer(ServerConnection& server, Database& file, const Progress& progress)
-        : server_{&server}, file_{&file}, progress_{&progress} {}
+    CopyFromServer(ServerConnection& server,
+                   Database& file,
+                   const Progress& progress,
+                   Part part = Part::all)
+        : server_{&server}, file_{&file}, progress_{&progress}, part_{part} {}
 
     void run() {
         const auto classes = setting("class_table");
@@ -84,12 +93,17 @@ private:
         segment_length_m_ = read_settings(*file_).segment_length_m; // checks them
         for (const auto& table : server_tables()) {
             const std::string_view name{table.name};
+            if (part_ == Part::network && name != "way" && name != "segment") {
+                continue;
+            }
             if (name == "segment") {
                 copy_segments(table);
             } else if (name == "drive") {
                 copy_drives(table);
             } else if (name == "segment_state") {
                 copy_states();
+            } else if (name == "chunk_dirty") {
+                copy_marks(table);
             } else if (table.file_table != nullptr) {
                 copy_rows(table);
             }
@@ -102,7 +116,7 @@ private:
         insert.run("version", fmt::format("{}", store_version));
         CopyReader reader{*server_,
                           "(SELECT key, value FROM macadam.meta"
-                          " WHERE key NOT IN ('format', 'version'))",
+                          " WHERE key NOT IN ('format', 'version', 'network_rows'))",
                           "meta",
                           2};
         while (reader.next()) {
@@ -111,19 +125,13 @@ private:
     }
 
     void copy_rows(const ServerTable& table) {
-        const bool is_marks = std::string_view{table.name} == "chunk_dirty";
-        const int columns = is_marks ? 1 : columns_of(table);
-        std::string names;
-        for (const auto& column : table.columns) {
-            names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", column.name);
-        }
-        auto insert =
-            file_->prepare(fmt::format("INSERT INTO {} ({}) VALUES ({})",
-                                       table.file_table,
-                                       is_marks                        ? "strip"
-                                       : table.file_columns != nullptr ? table.file_columns
-                                                                       : names.c_str(),
-                                       placeholders(columns)));
+        const int columns = columns_of(table);
+        auto insert = file_->prepare(fmt::format("INSERT INTO {} ({}) VALUES ({})",
+                                                 table.file_table,
+                                                 table.file_columns != nullptr
+                                                     ? std::string{table.file_columns}
+                                                     : quoted_column_list(table),
+                                                 placeholders(columns)));
         CopyReader reader{*server_, copy_target(table), table.name, columns_of(table)};
         while (reader.next()) {
             const auto& row = reader.row();
@@ -216,6 +224,21 @@ private:
         passes.flush();
     }
 
+    /// A chunk that is to be fused marks all its segments with passes, as waiting for it.
+    void copy_marks(const ServerTable& table) {
+        auto mark = file_->prepare("INSERT INTO strip_dirty VALUES (?)");
+        auto mark_segments = file_->prepare(
+            "INSERT INTO segment_dirty SELECT DISTINCT pass.segment FROM pass CROSS JOIN segment"
+            " ON segment.fid = pass.segment WHERE pass.segment >= ?1 AND pass.segment < ?1 + ?2"
+            " AND segment.strip = ?1");
+        CopyReader reader{*server_, copy_target(table), table.name, columns_of(table)};
+        while (reader.next()) {
+            const auto chunk = reader.row().integer(0);
+            mark.run(chunk);
+            mark_segments.run(chunk, std::int64_t{chunk_size()});
+        }
+    }
+
     void copy_states() {
         BulkInsert insert{*file_, insert_state, state_column_count};
         CopyReader reader{*server_,
@@ -237,6 +260,7 @@ private:
     ServerConnection* server_;
     Database* file_;
     const Progress* progress_;
+    Part part_;
     const ClassTable* classes_ = nullptr;
     double segment_length_m_ = 0;
     GeoBox box_{};
@@ -244,8 +268,8 @@ private:
 };
 
 /// Temporary file with its connection, which ends first.
-struct ServerMoment {
-    explicit ServerMoment(const fs::path& beside) : folder{beside} {}
+struct ServerCopy {
+    explicit ServerCopy(const fs::path& beside) : folder{beside} {}
     TemporaryFolder folder;
     std::shared_ptr<StoreConnection> store;
 };
@@ -267,10 +291,12 @@ copy_from_server(const std::string& address, const fs::path& file, const Progres
     add_geometry_functions(database);
     CopyFromServer copying{server, database, progress};
     copying.run();
-    StoreCopy copy{.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
-                   .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
-                   .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
-                   .by_superuser = server.is_superuser()};
+    const StoreCopy copy{
+        .trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
+        .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
+        .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
+        .by_superuser = server.is_superuser(),
+        .key_file = key_file_of(file)};
     if (const auto original = digest_of_server(server, copying.chunk_size(), progress);
         original != copy.digest) {
         throw InputError{fmt::format("{}: the copy has the digest {}, expected {}; nothing was "
@@ -280,29 +306,57 @@ copy_from_server(const std::string& address, const fs::path& file, const Progres
                                      original)};
     }
     server.commit();
+    const auto key = read_key(server_key_file(read_key_id(database)));
     database.close();
     remove_leftovers_of(file);
     whole.commit_new();
+    if (key && !read_key(copy.key_file)) {
+        write_key(copy.key_file, *key);
+    }
     return copy;
+}
+
+void copy_network_from_server(ServerConnection& server,
+                              const fs::path& file,
+                              const Progress& progress) {
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
+    add_geometry_functions(database);
+    CopyFromServer{server, database, progress, Part::network}.run();
+    database.close();
+    whole.commit_new();
+}
+
+std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
+                                                  Database::Access access,
+                                                  const LockWaitPolicy& wait_policy,
+                                                  const Progress& progress) {
+    ServerTransaction one_moment{server, true};
+    expect_server_schema(server);
+    auto copy = std::make_shared<ServerCopy>(fs::temp_directory_path() / "macadam");
+    const auto file = copy->folder.path() / "roads.gpkg";
+    std::string key_id;
+    {
+        Database database{file, Database::Access::create, server.address()};
+        add_geometry_functions(database);
+        CopyFromServer{server, database, progress}.run();
+        key_id = read_key_id(database);
+        database.close();
+    }
+    one_moment.commit();
+    if (const auto key = read_key(server_key_file(key_id))) {
+        write_key(key_file_of(file), *key);
+    }
+    copy->store = open_connection(file, access, wait_policy, Audience::operator_, server.address());
+    auto* const store = copy->store.get();
+    return {std::move(copy), store};
 }
 
 std::shared_ptr<StoreConnection> open_server_moment(const std::string& address,
                                                     const LockWaitPolicy& wait_policy,
                                                     const Progress& progress) {
     ServerConnection server{address};
-    server.begin(true);
-    expect_server_schema(server);
-    auto moment = std::make_shared<ServerMoment>(fs::temp_directory_path() / "macadam");
-    const auto file = moment->folder.path() / "roads.gpkg";
-    {
-        Database database{file, Database::Access::create, address};
-        add_geometry_functions(database);
-        CopyFromServer{server, database, progress}.run();
-        database.close();
-    }
-    moment->store = open_connection(file, Database::Access::read, wait_policy, Audience::operator_);
-    auto* const store = moment->store.get();
-    return {std::move(moment), store};
+    return open_server_copy(server, Database::Access::read, wait_policy, progress);
 }
 
 } // namespace macadam

@@ -2,13 +2,17 @@
 #include "mapping/passes/chunk_trace.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/ewkb.hpp"
+#include "storage/store/fusion/store_version.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/rows/store_digest.hpp"
+#include "storage/store/schema/store_schema.hpp"
+#include "storage/store/server/drive_rows.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
 #include "storage/store/server/store_copy.hpp"
+#include "storage/store/server/user_files.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +27,8 @@
 
 namespace macadam {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr int columns_of(const ServerTable& table) {
     return static_cast<int>(table.columns.size());
@@ -58,11 +64,16 @@ public:
                 copy_drives(table);
             } else if (name == "segment_state") {
                 copy_states(table);
+            } else if (name == "chunk_dirty") {
+                copy_marks(table);
             } else if (table.file_table != nullptr) {
                 copy_rows(table);
             }
         }
-        continue_row_numbers();
+        server_->rows(renew_network_rows);
+        for (const auto* const table : numbered_tables) {
+            continue_row_numbers(*server_, table);
+        }
         add_server_style(*server_, store_->classes());
     }
 
@@ -92,35 +103,14 @@ private:
     }
 
     void copy_rows(const ServerTable& table) {
-        const auto columns =
-            table.file_columns != nullptr ? std::string{table.file_columns} : quoted_list(table);
+        const auto columns = table.file_columns != nullptr ? std::string{table.file_columns}
+                                                           : quoted_column_list(table);
         auto select = file_->prepare(fmt::format("SELECT {} FROM {}", columns, table.file_table));
         CopyWriter writer{*server_, copy_target(table), columns_of(table)};
         while (select.step()) {
-            writer.begin_row();
-            for (int column = 0; column < columns_of(table); ++column) {
-                const std::string_view type{table.columns[static_cast<std::size_t>(column)].type};
-                if (select.is_null(column)) {
-                    writer.put(std::nullopt);
-                } else if (type.starts_with("bigint")) {
-                    writer.put(select.integer(column));
-                } else if (type.starts_with("bytea")) {
-                    writer.put(ServerBytes{select.blob(column)});
-                } else {
-                    writer.put(select.text(column));
-                }
-            }
-            writer.end_row();
+            put_row(writer, select, table);
         }
         writer.finish();
-    }
-
-    static std::string quoted_list(const ServerTable& table) {
-        std::string list;
-        for (const auto& column : table.columns) {
-            list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", column.name);
-        }
-        return list;
     }
 
     void copy_segments(const ServerTable& table) {
@@ -168,17 +158,6 @@ private:
         }
     }
 
-    /// Passes and trace of a drive over a chunk.
-    struct Drive {
-        std::vector<DrivePass> passes;
-        bool has_trace = false;
-        std::int64_t first_m = 0;
-        std::int64_t place_sd_mm = 0;
-        std::string iri;
-        std::optional<std::string> left;
-    };
-    using Drives = std::map<std::pair<std::int64_t, std::int64_t>, Drive>; ///< by trip, drive
-
     void copy_drives(const ServerTable& table) {
         auto passes = file_->prepare(
             fmt::format("SELECT segment, trip, {} FROM pass WHERE segment >= ? AND segment <= ?",
@@ -187,48 +166,22 @@ private:
                                      " FROM trace WHERE strip = ?");
         CopyWriter writer{*server_, copy_target(table), columns_of(table)};
         for (const auto& chunk : chunks_) {
-            Drives drives;
+            std::map<DriveName, ChunkDrive> drives;
             for (passes.bind(chunk.first, chunk.last); passes.step();) {
                 const auto pass = pass_in(passes, 2, {});
-                const auto drive = pass.drive ? std::int64_t{*pass.drive} : -1;
-                drives[{passes.integer(1), drive}].passes.push_back(
+                drives[{chunk.first, passes.integer(1), drive_number(pass)}].passes.push_back(
                     {static_cast<std::uint32_t>(passes.integer(0) - chunk.first), pass});
             }
             for (traces.bind(chunk.first); traces.step();) {
-                auto& drive = drives[{traces.integer(0), traces.integer(1)}];
-                drive.has_trace = true;
-                drive.first_m = traces.integer(2);
-                drive.place_sd_mm = traces.integer(3);
-                drive.iri = traces.blob(4);
-                if (!traces.is_null(5)) {
-                    drive.left = std::string{traces.blob(5)};
-                }
+                drives[{chunk.first, traces.integer(0), traces.integer(1)}].trace =
+                    drive_trace_in(traces, 2);
             }
-            for (auto& [key, drive] : drives) {
-                write(writer, chunk, key, std::move(drive));
+            for (auto& [name, drive] : drives) {
+                write_drive(writer, chunk.cell, name, std::move(drive));
             }
             report(static_cast<std::size_t>(chunk.last - chunk.first + 1));
         }
         writer.finish();
-    }
-
-    static void
-    write(CopyWriter& writer, const FileChunk& chunk, const Drives::key_type& key, Drive drive) {
-        const auto known = [&](std::int64_t value) {
-            return drive.has_trace ? std::optional{value} : std::nullopt;
-        };
-        const auto count = static_cast<std::int32_t>(drive.passes.size());
-        const auto body = body_of(std::move(drive.passes));
-        writer.add(chunk.cell,
-                   chunk.first,
-                   key.first,
-                   key.second,
-                   count,
-                   ServerBytes{body},
-                   known(drive.first_m),
-                   known(drive.place_sd_mm),
-                   drive.has_trace ? std::optional{ServerBytes{drive.iri}} : std::nullopt,
-                   drive.left ? std::optional{ServerBytes{*drive.left}} : std::nullopt);
     }
 
     void copy_states(const ServerTable& table) {
@@ -249,13 +202,13 @@ private:
         writer.finish();
     }
 
-    /// New rows get numbers after those copied.
-    void continue_row_numbers() {
-        for (const auto* const table : {"vehicle", "trip", "audit"}) {
-            server_->rows(fmt::format("SELECT setval(pg_get_serial_sequence('macadam.{0}', 'id'),"
-                                      " coalesce((SELECT max(id) FROM macadam.{0}), 0) + 1, false)",
-                                      table));
+    /// A mark for each chunk that is dirty or holds a dirty segment.
+    void copy_marks(const ServerTable& table) {
+        CopyWriter writer{*server_, copy_target(table), columns_of(table)};
+        for (const auto chunk : dirty_chunks(*file_)) {
+            writer.add(chunk, std::int64_t{1}, std::int64_t{0});
         }
+        writer.finish();
     }
 
     Database* file_;
@@ -271,7 +224,7 @@ private:
 
 } // namespace
 
-StoreCopy copy_to_server(const std::filesystem::path& file,
+StoreCopy copy_to_server(const fs::path& file,
                          const std::string& address,
                          const LockWaitPolicy& wait_policy,
                          const Progress& progress) {
@@ -287,10 +240,12 @@ StoreCopy copy_to_server(const std::filesystem::path& file,
     Transaction one_moment{database, Transaction::Kind::read};
     server.begin(false);
     CopyToServer{database, server, *store, progress}.run();
-    StoreCopy copy{.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
-                   .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
-                   .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
-                   .by_superuser = server.is_superuser()};
+    const StoreCopy copy{
+        .trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
+        .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
+        .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
+        .by_superuser = server.is_superuser(),
+        .key_file = server_key_file(read_key_id(database))};
     const auto copied =
         digest_of_server(server, static_cast<std::uint32_t>(store->segments_per_chunk()), progress);
     if (copied != copy.digest) {
@@ -299,6 +254,10 @@ StoreCopy copy_to_server(const std::filesystem::path& file,
                                      address,
                                      copied,
                                      copy.digest)};
+    }
+    if (store->key && !read_key(copy.key_file)) {
+        fs::create_directories(copy.key_file.parent_path());
+        write_key(copy.key_file, *store->key);
     }
     server.commit();
     server.run("ANALYZE macadam.segment, macadam.drive, macadam.segment_state, macadam.trip,"

@@ -88,6 +88,29 @@ void write_server_state(CopyWriter& writer,
                classes.classes[class_index(classes, mm_per_m(state.iri_um))].name);
 }
 
+void put_row(CopyWriter& writer, const Statement& row, const ServerTable& table) {
+    writer.begin_row();
+    for (int column = 0; column < static_cast<int>(table.columns.size()); ++column) {
+        const std::string_view type{table.columns[static_cast<std::size_t>(column)].type};
+        if (row.is_null(column)) {
+            writer.put(std::nullopt);
+        } else if (type.starts_with("bigint")) {
+            writer.put(row.integer(column));
+        } else if (type.starts_with("bytea")) {
+            writer.put(ServerBytes{row.blob(column)});
+        } else {
+            writer.put(row.text(column));
+        }
+    }
+    writer.end_row();
+}
+
+void continue_row_numbers(ServerConnection& server, const std::string& table) {
+    server.rows(fmt::format("SELECT setval(pg_get_serial_sequence('macadam.{0}', 'id'),"
+                            " coalesce((SELECT max(id) FROM macadam.{0}), 0) + 1, false)",
+                            table));
+}
+
 std::vector<DrivePass> server_passes_in(const ServerConnection& server,
                                         std::string_view body,
                                         std::uint32_t segments_per_chunk) {

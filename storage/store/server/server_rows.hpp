@@ -4,9 +4,13 @@
 #include "mapping/fusion/segment_state.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/postgres/copy_stream.hpp"
+#include "storage/sqlite/sqlite.hpp"
 #include "storage/store/server/drive_body.hpp"
+#include "storage/store/server/server_tables.hpp"
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +32,15 @@ void write_server_state(CopyWriter& writer,
                         std::int64_t fid,
                         const SegmentState& state,
                         const ClassTable& classes);
+
+/// Writes a row of a table that is copied row by row, from all its columns in a file.
+void put_row(CopyWriter& writer, const Statement& row, const ServerTable& table);
+
+/// Tables whose rows the server numbers.
+inline constexpr std::array numbered_tables{"vehicle", "trip", "audit"};
+
+/// Lets new rows of such a table get numbers after those that it has.
+void continue_row_numbers(ServerConnection& server, const std::string& table);
 
 /// Passes of table drive.
 /// \throws InputError  that names the server, for a body that is none.

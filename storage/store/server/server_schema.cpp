@@ -71,11 +71,13 @@ CREATE UNIQUE INDEX segment_key ON macadam.segment (cell, way_id, direction, seq
 CREATE INDEX drive_of_trip ON macadam.drive (trip);
 CREATE INDEX event_of_trip ON macadam.event (trip);
 CREATE INDEX way_name ON macadam.way (name);
+CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms, chunk);
 COMMENT ON INDEX macadam.segment_geom IS 'Segments by place';
 COMMENT ON INDEX macadam.segment_key IS 'Segments by key';
 COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
 COMMENT ON INDEX macadam.event_of_trip IS 'Defects of a trip, to forget it';
 COMMENT ON INDEX macadam.way_name IS 'Roads by name';
+COMMENT ON INDEX macadam.chunk_dirty_since IS 'Chunks to be fused, oldest first';
 )";
 
 // The same as drive_body.cpp reads. Differences wrap around there; in sound passes none does.
@@ -221,6 +223,7 @@ BEGIN
         END IF;
         IF role = 'macadam_operator' THEN
             EXECUTE format('GRANT INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA macadam TO %I', role);
+            EXECUTE format('GRANT UPDATE ON ALL SEQUENCES IN SCHEMA macadam TO %I', role);
             EXECUTE format('REVOKE INSERT, UPDATE, DELETE ON macadam.migration FROM %I', role);
         END IF;
     END LOOP;
@@ -231,7 +234,7 @@ REVOKE ALL ON FUNCTION macadam.add_cell(integer) FROM PUBLIC;
 /// What an importer writes: trips, and the values fused from them.
 constexpr const char* written_by_importers =
     "macadam.vehicle, macadam.trip, macadam.row_reason, macadam.drive, macadam.event,"
-    " macadam.event_search, macadam.segment_state, macadam.chunk_state, macadam.segment_dirty,"
+    " macadam.event_search, macadam.segment_state, macadam.chunk_state,"
     " macadam.chunk_dirty, macadam.import_note, macadam.audit, macadam.state_change";
 
 std::string read_by_all() {

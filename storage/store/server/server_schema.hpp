@@ -26,6 +26,12 @@ void add_server_cells(ServerConnection& server, const std::set<std::int32_t>& ce
 /// for it, in public.layer_styles.
 void add_server_style(ServerConnection& server, const ClassTable& classes);
 
+/// Statement that gives the rows of the network a new name, under which others may keep them; after
+/// each change of tables way and segment.
+inline constexpr const char* renew_network_rows =
+    "INSERT INTO macadam.meta VALUES ('network_rows', gen_random_uuid()::text)"
+    " ON CONFLICT (key) DO UPDATE SET value = excluded.value";
+
 /// Checks that the server has a road database of a version that this program knows.
 ///
 /// \throws InputError  if not.

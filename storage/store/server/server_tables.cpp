@@ -137,15 +137,13 @@ constexpr std::array control_section{
     ServerColumn{"sd_um", "bigint NOT NULL", "Its standard uncertainty, um/m"},
     ServerColumn{"utc_ms", "bigint", "Day of the measurement, ms since 1970 UTC"}};
 
-constexpr std::array segment_dirty{
-    ServerColumn{"segment", "bigint NOT NULL", "Row of a segment with passes that are not fused"}};
-
 constexpr std::array chunk_dirty{
     ServerColumn{"chunk", "bigint NOT NULL", "Row of the first segment of a chunk to be fused"},
     ServerColumn{"marks",
                  "bigint NOT NULL DEFAULT 1",
                  "Grows with each mark; who fused removes the row only if it is as when he read "
-                 "the passes, so that no mark is lost"}};
+                 "the passes, so that no mark is lost"},
+    ServerColumn{"since_ms", "bigint NOT NULL", "First mark, ms since 1970 UTC"}};
 
 constexpr std::array row_reason{
     ServerColumn{"trip", "bigint NOT NULL REFERENCES macadam.trip", "Trip"},
@@ -264,21 +262,11 @@ constexpr std::array tables{
                 "PRIMARY KEY (name)",
                 nullptr,
                 "control_section"},
-    ServerTable{"segment_dirty",
-                "Segments with passes that are not fused yet",
-                trips,
-                segment_dirty,
-                "PRIMARY KEY (segment)",
-                nullptr,
-                "segment_dirty"},
     ServerTable{"chunk_dirty",
                 "Chunks with drives that are not fused yet",
                 trips,
                 chunk_dirty,
-                "PRIMARY KEY (chunk)",
-                nullptr,
-                "strip_dirty",
-                "strip, 1"},
+                "PRIMARY KEY (chunk)"},
     ServerTable{"import_note",
                 "Imports that began and did not end",
                 trips,
@@ -340,6 +328,14 @@ std::string column_list(const ServerTable& table) {
     std::string list;
     for (const auto& column : table.columns) {
         list += fmt::format("{}{}", list.empty() ? "" : ", ", column.name);
+    }
+    return list;
+}
+
+std::string quoted_column_list(const ServerTable& table) {
+    std::string list;
+    for (const auto& column : table.columns) {
+        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", column.name);
     }
     return list;
 }

@@ -38,6 +38,9 @@ std::span<const ServerTable> server_tables();
 /// Names of all columns, separated by commas.
 std::string column_list(const ServerTable& table);
 
+/// The same in double quotes, as SQLite needs them for names that are words of SQL.
+std::string quoted_column_list(const ServerTable& table);
+
 /// "macadam.NAME (COLUMN, ...)", as COPY takes it.
 std::string copy_target(const ServerTable& table);
 

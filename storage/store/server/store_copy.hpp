@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/common/progress.hpp"
+#include "storage/postgres/server_connection.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
 #include "storage/store/connection/store_connection.hpp"
 
@@ -15,12 +16,13 @@ namespace macadam {
 struct StoreCopy {
     std::size_t trips = 0;
     std::size_t passes = 0;
-    std::string digest;        ///< equal on both sides
-    bool by_superuser = false; ///< of the server
+    std::string digest;             ///< equal on both sides
+    bool by_superuser = false;      ///< of the server
+    std::filesystem::path key_file; ///< where the key of the copy is, if it is at hand
 };
 
 /// Copies a database from a file to a server, in one transaction: all of it or, on failure,
-/// nothing.
+/// nothing. Its key, if it lies beside the file, is kept at server_key_file().
 ///
 /// \throws InputError  if the server already has one, or the file is a crowd database.
 StoreCopy copy_to_server(const std::filesystem::path& file,
@@ -28,15 +30,30 @@ StoreCopy copy_to_server(const std::filesystem::path& file,
                          const LockWaitPolicy& wait_policy,
                          const Progress& progress);
 
-/// Copies the moment of a database on a server to a new file. Its key is not on the server.
+/// Copies the moment of a database on a server to a new file. Its key is put beside it if this user
+/// has it; it is not on the server.
 ///
 /// \throws InputError  if the file exists.
 StoreCopy copy_from_server(const std::string& address,
                            const std::filesystem::path& file,
                            const Progress& progress);
 
-/// Opens the moment of a database on a server for reading, through a private copy in the folder of
-/// temporary files. The copy is removed with the last user of the connection.
+/// Copies roads and settings alone to a new file, a database without trips. Within the caller's
+/// transaction.
+///
+/// \throws InputError  if the file exists.
+void copy_network_from_server(ServerConnection& server,
+                              const std::filesystem::path& file,
+                              const Progress& progress);
+
+/// Opens a private copy of the moment of a database in the folder of temporary files, with its key
+/// if this user has it. The copy is removed with the last user of the connection.
+std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
+                                                  Database::Access access,
+                                                  const LockWaitPolicy& wait_policy,
+                                                  const Progress& progress);
+
+/// Opens such a copy for reading.
 std::shared_ptr<StoreConnection> open_server_moment(const std::string& address,
                                                     const LockWaitPolicy& wait_policy,
                                                     const Progress& progress);

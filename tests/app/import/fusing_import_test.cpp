@@ -54,7 +54,8 @@ ImportTotals import_all(RoadStore& store,
     AskedTrips trips{{folder / "trips"}, {}, Console{Verbosity::quiet}};
     PipelineConfig pipeline;
     pipeline.estimator.method = Method::kf;
-    return import_trips(store,
+    auto target = import_store_of(store);
+    return import_trips(target,
                         trips,
                         vehicles,
                         {.pipeline = pipeline, .jobs = 2, .fuse_every = fuse_every},

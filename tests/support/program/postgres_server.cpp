@@ -46,6 +46,9 @@ PostgresServer::PostgresServer() {
         throw std::runtime_error{"cannot create " + name};
     }
     folder_ = name;
+    // Where the program keeps keys and roads of databases on servers.
+    setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1); // NOLINT(concurrency-mt-unsafe)
+    setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);   // NOLINT(concurrency-mt-unsafe)
     const auto programs = server_programs().string();
     if (geteuid() == 0) {
         expect_success(folder_, fmt::format("chown nobody:nogroup {}", name));

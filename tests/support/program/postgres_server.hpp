@@ -6,7 +6,8 @@
 namespace macadam::testing {
 
 /// PostgreSQL server of an ordinary user, for one test: on a socket in a folder of its own, with a
-/// superuser `boss`. It is stopped at the end of the test, and ends itself after 110 s.
+/// superuser `boss`. It is stopped at the end of the test, and ends itself after 110 s. Keys and
+/// roads of its databases are kept there too, by the variables of the environment.
 class PostgresServer {
 public:
     /// Starts it; \throws std::runtime_error  with what it says, if it does not start.

@@ -71,13 +71,15 @@ void make_rich_store(const fs::path& file) {
     add_trip(store, trip_record(5), passes_of(5));
 }
 
-/// Content of all tables, but for those that SQLite and the GeoPackage keep for themselves.
+/// Content of all tables, but for those that SQLite and the GeoPackage keep for themselves, and for
+/// marks of chunks, which on the server stand for those of their segments.
 std::vector<std::string> content_of(const fs::path& file) {
     Database database{file, Database::Access::read};
     std::vector<std::string> tables;
     auto names = database.prepare("SELECT name FROM sqlite_schema WHERE type = 'table' AND name"
                                   " NOT GLOB 'gpkg_*' AND name NOT GLOB 'rtree_*' AND name NOT GLOB"
-                                  " 'sqlite_*' AND name <> 'layer_styles' ORDER BY name");
+                                  " 'sqlite_*' AND name NOT IN ('layer_styles', 'strip_dirty')"
+                                  " ORDER BY name");
     while (names.step()) {
         tables.push_back(names.text(0));
     }

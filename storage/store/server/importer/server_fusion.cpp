@@ -1,0 +1,268 @@
+#include "storage/store/server/importer/server_fusion.hpp"
+
+#include "storage/postgres/copy_stream.hpp"
+#include "storage/store/rows/audit.hpp"
+#include "storage/store/server/server_rows.hpp"
+#include "storage/store/server/server_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t chunks_in_batch = 64;
+
+std::string array_of(std::span<const std::int64_t> numbers) {
+    return fmt::format("{{{}}}", fmt::join(numbers, ","));
+}
+
+using States = std::map<std::int64_t, SegmentState>; ///< by row of the segment, without its key
+
+States states_before(ServerConnection& server, const ChunkConditions& conditions) {
+    States states;
+    CopyReader rows{server,
+                    fmt::format("(SELECT fid, {} FROM macadam.segment_state AS state"
+                                " WHERE {} AND {})",
+                                server_state_columns,
+                                conditions.cells,
+                                conditions.fids),
+                    "segment_state",
+                    1 + server_state_column_count};
+    while (rows.next()) {
+        states.emplace(rows.row().integer(0), server_state_in(rows.row(), 1, {}));
+    }
+    return states;
+}
+
+/// State to be written, with its cell.
+struct NewState {
+    std::int32_t cell;
+    const FusedSegment* segment;
+};
+
+/// Value that is recorded in the audit; null: no pass of the segment is left.
+struct NewNumber {
+    std::int64_t fid;
+    const SegmentState* state;
+};
+
+struct Difference {
+    std::vector<std::int64_t> removed; ///< rows of states that go or are replaced
+    std::vector<NewState> states;
+    std::vector<NewNumber> numbers;
+};
+
+void add_difference(Difference& difference,
+                    States& before,
+                    std::int32_t cell,
+                    const FusedChunk& fused) {
+    for (const auto& segment : fused.segments) {
+        auto now = segment.state;
+        now.segment = {};
+        const auto old = before.find(segment.fid);
+        const bool is_new = old == before.end();
+        if (is_new || old->second != now) {
+            difference.states.push_back({cell, &segment});
+            if (is_new || old->second.iri_um != now.iri_um || old->second.sd_um != now.sd_um ||
+                old->second.passes != now.passes) {
+                difference.numbers.push_back({segment.fid, &segment.state});
+            }
+            if (!is_new) {
+                difference.removed.push_back(segment.fid);
+            }
+        }
+        if (!is_new) {
+            before.erase(old);
+        }
+    }
+}
+
+void write_states(ServerConnection& server,
+                  const Difference& difference,
+                  const ChunkConditions& conditions,
+                  const ClassTable& classes) {
+    if (!difference.removed.empty()) {
+        server.rows(fmt::format("DELETE FROM macadam.segment_state WHERE {}"
+                                " AND fid = ANY($1::bigint[])",
+                                conditions.cells),
+                    {array_of(difference.removed)});
+    }
+    if (!difference.states.empty()) {
+        const auto& table = server_table("segment_state");
+        CopyWriter writer{server, copy_target(table), static_cast<int>(table.columns.size())};
+        for (const auto& [cell, segment] : difference.states) {
+            write_server_state(writer, cell, segment->fid, segment->state, classes);
+        }
+        writer.finish();
+    }
+}
+
+/// Adds the audit entry of an import, unless it has one.
+void add_audit(ServerConnection& server, std::optional<std::int64_t>& audit) {
+    if (!audit) {
+        audit = server
+                    .numbers("INSERT INTO macadam.audit (at, generation, what, detail) VALUES ($1,"
+                             " coalesce((SELECT value FROM macadam.meta WHERE key = 'generation'),"
+                             " '1')::bigint, 'import', 'new passes') RETURNING id",
+                             {audit_time_now()})
+                    .at(0);
+    }
+}
+
+void write_numbers(ServerConnection& server,
+                   const std::vector<NewNumber>& numbers,
+                   std::int64_t audit) {
+    std::vector<std::int64_t> fids;
+    for (const auto& [fid, state] : numbers) {
+        fids.push_back(fid);
+    }
+    server.rows("DELETE FROM macadam.state_change WHERE audit = $1 AND segment = ANY($2::bigint[])",
+                {std::to_string(audit), array_of(fids)});
+    CopyWriter writer{server, copy_target(server_table("state_change")), 5};
+    for (const auto& [fid, state] : numbers) {
+        std::optional<std::int64_t> iri_um, sd_um;
+        if (state != nullptr) {
+            iri_um = state->iri_um;
+            sd_um = state->sd_um;
+        }
+        writer.add(fid, audit, iri_um, sd_um, std::int64_t{state != nullptr ? state->passes : 0});
+    }
+    writer.finish();
+}
+
+} // namespace
+
+/// Chunks that are fused in one transaction.
+struct ServerFusion::Batch {
+    std::vector<std::int64_t> chunks; ///< rising
+    std::vector<std::int64_t> marks;  ///< of each, as read before its drives
+    std::vector<FusedChunk> fused;    ///< of each
+};
+
+ServerFusion::ServerFusion(ServerConnection& server,
+                           StoreConnection& image,
+                           ImageRows& rows,
+                           std::function<void()> expect_same)
+    : server_{&server}, image_{&image}, rows_{&rows},
+      expect_same_{std::move(expect_same)}, scratch_{server, image, rows} {}
+
+std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& record) {
+    const auto waiting =
+        server_->numbers("SELECT chunk FROM macadam.chunk_dirty ORDER BY since_ms, chunk");
+    const auto before = record.segments.size();
+    // Chunks that others fuse just now are left to the end, and then waited for one by one: who
+    // holds several locks never waits for another one.
+    std::vector<std::int64_t> left;
+    for (std::size_t done = 0; done < waiting.size() && !progress.stop.stop_requested();) {
+        const auto batch =
+            std::span{waiting}.subspan(done, std::min(chunks_in_batch, waiting.size() - done));
+        const auto fused = fuse(batch, false, record);
+        std::ranges::copy_if(batch, std::back_inserter(left), [&](std::int64_t chunk) {
+            return !std::ranges::binary_search(fused, chunk);
+        });
+        done += batch.size();
+        progress(done - left.size(), waiting.size());
+    }
+    for (std::size_t i = 0; i < left.size() && !progress.stop.stop_requested(); ++i) {
+        fuse(std::span{left}.subspan(i, 1), true, record);
+        progress(waiting.size() - left.size() + i + 1, waiting.size());
+    }
+    return record.segments.size() - before;
+}
+
+std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunks, bool waits) {
+    if (waits) {
+        server_->rows("SELECT pg_advisory_xact_lock($1)", {std::to_string(chunks.front())});
+        return {chunks.begin(), chunks.end()};
+    }
+    auto locked = server_->numbers("SELECT chunk FROM unnest($1::bigint[]) AS chunk"
+                                   " WHERE pg_try_advisory_xact_lock(chunk)",
+                                   {array_of(chunks)});
+    std::ranges::sort(locked);
+    return locked;
+}
+
+std::vector<std::int64_t>
+ServerFusion::fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecord& record) {
+    auto now = record; // that of this transaction
+    ServerTransaction all{*server_};
+    expect_same_();
+    auto locked = lock(chunks, waits); // a statement of its own: later ones see what came before it
+    Batch batch;
+    const auto marks = server_->numbers("SELECT chunk, marks FROM macadam.chunk_dirty"
+                                        " WHERE chunk = ANY($1::bigint[]) ORDER BY chunk",
+                                        {array_of(locked)});
+    for (std::size_t i = 0; i + 1 < marks.size(); i += 2) {
+        batch.chunks.push_back(marks[i]);
+        batch.marks.push_back(marks[i + 1]);
+    }
+    if (!batch.chunks.empty()) {
+        batch.fused = scratch_.fused(batch.chunks);
+        write(batch, now);
+    }
+    all.commit();
+    record = std::move(now);
+    return locked;
+}
+
+void ServerFusion::write(const Batch& batch, FusionRecord& record) {
+    const auto conditions = conditions_of(batch.chunks, *rows_);
+    auto before = states_before(*server_, conditions);
+    Difference difference;
+    for (std::size_t i = 0; i < batch.chunks.size(); ++i) {
+        add_difference(difference, before, rows_->place_of(batch.chunks[i]).cell, batch.fused[i]);
+        for (const auto& segment : batch.fused[i].segments) {
+            record.segments.push_back(segment.fid);
+        }
+    }
+    std::ranges::sort(record.segments);
+    record.segments.erase(std::ranges::unique(record.segments).begin(), record.segments.end());
+    for (const auto& [fid, state] : before) { // no pass of them is left
+        difference.removed.push_back(fid);
+        difference.numbers.push_back({fid, nullptr});
+    }
+    write_states(*server_, difference, conditions, image_->classes());
+    if (!difference.numbers.empty()) {
+        add_audit(*server_, record.audit);
+        write_numbers(*server_, difference.numbers, *record.audit);
+    }
+    write_alignments(batch);
+    remove_marks(batch);
+}
+
+void ServerFusion::write_alignments(const Batch& batch) {
+    server_->rows("DELETE FROM macadam.chunk_state WHERE chunk = ANY($1::bigint[])",
+                  {array_of(batch.chunks)});
+    CopyWriter writer{*server_, copy_target(server_table("chunk_state")), 6};
+    for (std::size_t i = 0; i < batch.chunks.size(); ++i) {
+        const auto& found = batch.fused[i].alignment;
+        if (found.drives > 0) {
+            writer.add(batch.chunks[i],
+                       found.drives,
+                       found.found,
+                       found.beyond_reach,
+                       found.moved_far,
+                       std::int64_t{found.middle_lag_cm});
+        }
+    }
+    writer.finish();
+}
+
+/// Importers mark chunks in the same order. Who is about to mark one is waited for by the first
+/// statement; the second one then sees his mark and leaves the chunk to the next fusion.
+void ServerFusion::remove_marks(const Batch& batch) {
+    server_->rows("SELECT chunk FROM macadam.chunk_dirty WHERE chunk = ANY($1::bigint[])"
+                  " ORDER BY chunk FOR UPDATE",
+                  {array_of(batch.chunks)});
+    server_->rows("DELETE FROM macadam.chunk_dirty USING unnest($1::bigint[], $2::bigint[])"
+                  " AS seen (chunk, marks) WHERE chunk_dirty.chunk = seen.chunk"
+                  " AND chunk_dirty.marks = seen.marks",
+                  {array_of(batch.chunks), array_of(batch.marks)});
+}
+
+} // namespace macadam

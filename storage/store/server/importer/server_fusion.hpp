@@ -1,0 +1,60 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "storage/postgres/server_connection.hpp"
+#include "storage/store/records/fusion_record.hpp"
+#include "storage/store/server/importer/fusion_scratch.hpp"
+#include "storage/store/server/importer/network_image.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Fuses chunks of a database on a server, beside any number of others that import and fuse.
+///
+/// A batch of chunks is one transaction: it locks each chunk by an advisory lock of its number,
+/// reads its mark, then its drives, fuses them, writes what changed, and removes the mark only if
+/// it is as it was when read, so that no drive that arrives meanwhile is left unfused.
+class ServerFusion {
+public:
+    /// \param image  roads of the database; outlives this object, as do the others.
+    /// \param expect_same  called at the begin of each transaction: takes the lock of an importer
+    ///                     and checks that the database is still the one that was opened.
+    ServerFusion(ServerConnection& server,
+                 StoreConnection& image,
+                 ImageRows& rows,
+                 std::function<void()> expect_same);
+
+    /// Fuses the chunks that are marked now, oldest first, until all are done or a stop is
+    /// requested.
+    ///
+    /// \param record  of the earlier fusions of the same import; this one is added
+    /// \returns the number of segments fused.
+    std::size_t fuse_marked(const Progress& progress, FusionRecord& record);
+
+private:
+    struct Batch;
+
+    /// \param waits  for others that fuse these chunks; otherwise they are left to them.
+    /// \returns the chunks that are done, rising.
+    std::vector<std::int64_t>
+    fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecord& record);
+    std::vector<std::int64_t> lock(std::span<const std::int64_t> chunks, bool waits);
+    void write(const Batch& batch, FusionRecord& record);
+    void write_alignments(const Batch& batch);
+    void remove_marks(const Batch& batch);
+
+    ServerConnection* server_;
+    StoreConnection* image_;
+    ImageRows* rows_;
+    std::function<void()> expect_same_;
+    FusionScratch scratch_;
+};
+
+} // namespace macadam

@@ -1,0 +1,47 @@
+#include "storage/store/server/server_locks.hpp"
+
+#include <fmt/format.h>
+
+namespace macadam {
+namespace {
+
+// First numbers of our pairs: the letters "maca" and "macb".
+constexpr int of_database = 0x6d616361;
+constexpr int of_imports = 0x6d616362;
+
+} // namespace
+
+void share_database(ServerConnection& server) {
+    server.rows(fmt::format("SELECT pg_advisory_xact_lock_shared({}, 0)", of_database));
+}
+
+void take_database(ServerConnection& server) {
+    server.rows(fmt::format("SELECT pg_advisory_lock({}, 0)", of_database));
+}
+
+std::int32_t number_of_import(const std::string& name) {
+    std::uint32_t hash = 2166136261; // FNV-1a
+    for (const char c : name) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 16777619;
+    }
+    return static_cast<std::int32_t>(hash >> 1);
+}
+
+void take_import_lock(ServerConnection& server, std::int32_t import) {
+    server.rows(fmt::format("SELECT pg_advisory_lock_shared({}, {})", of_imports, import));
+}
+
+void release_import_lock(ServerConnection& server, std::int32_t import) {
+    server.rows(fmt::format("SELECT pg_advisory_unlock_shared({}, {})", of_imports, import));
+}
+
+bool is_other_importing(ServerConnection& server, const std::optional<std::int32_t>& import) {
+    return server.number(fmt::format(
+               "SELECT count(*) FROM pg_locks WHERE locktype = 'advisory' AND classid = {}"
+               " AND database = (SELECT oid FROM pg_database WHERE datname = current_database())"
+               " AND pid <> pg_backend_pid() AND {}",
+               of_imports,
+               import ? fmt::format("objid = {}", *import) : std::string{"true"})) != 0;
+}
+
+} // namespace macadam

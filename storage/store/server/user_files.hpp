@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace macadam {
+
+// Files of this user that belong to databases on servers.
+
+/// File of the key of a database on a server, which the server never sees:
+/// $XDG_CONFIG_HOME/macadam/keys/ID.key, else in ~/.config.
+///
+/// \param key_id  PrivacyKey::id()
+/// \throws InputError  if that is no id, or there is no home folder.
+std::filesystem::path server_key_file(const std::string& key_id);
+
+/// File in which the roads of a database are kept: $XDG_CACHE_HOME/macadam/networks/NAME.gpkg, else
+/// in ~/.cache, else in the folder of temporary files.
+///
+/// \param rows  name of the network's rows, as the server states it
+/// \throws InputError  if it is none.
+std::filesystem::path network_image_file(const std::string& rows);
+
+} // namespace macadam

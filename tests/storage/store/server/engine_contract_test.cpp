@@ -1,0 +1,276 @@
+// What a database does on any engine: the same sentences, tried on a GeoPackage and on PostgreSQL.
+
+#include "mapping/conflation/network_conflation.hpp"
+#include "mapping/network/build_network.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/edited_network.hpp"
+#include "support/roads/engine_world.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr int trip_count = 6;
+
+/// A file with the same trips, imported in the opposite order.
+class Oracle {
+public:
+    Oracle(const std::filesystem::path& file, const std::vector<int>& trips)
+        : store_{new_store(file)} {
+        const auto target = import_store_of(store_);
+        for (auto number = trips.rbegin(); number != trips.rend(); ++number) {
+            add_rich_trip(*target.trips, *number);
+        }
+        fuse_all(*target.trips);
+    }
+    RoadStore& store() { return store_; }
+
+private:
+    RoadStore store_;
+};
+
+std::vector<int> all_trips() {
+    std::vector<int> trips;
+    for (int number = 0; number < trip_count; ++number) {
+        trips.push_back(number);
+    }
+    return trips;
+}
+
+std::vector<std::optional<SegmentState>> values_of(const StoreReader& store,
+                                                   const SegmentFilter& filter) {
+    std::vector<std::optional<SegmentState>> states;
+    store.visit(filter, [&](const SegmentRecord& record) { states.push_back(record.state); });
+    return states;
+}
+
+class DatabaseOnAnyEngine : public ::testing::TestWithParam<Engine> {
+protected:
+    void import_all() { import_rich_trips(*database_.import().trips, trip_count); }
+
+    std::filesystem::path folder_ = test_folder();
+    EngineDatabase database_{GetParam(), folder_};
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines,
+                         DatabaseOnAnyEngine,
+                         ::testing::Values(Engine::geopackage, Engine::postgresql),
+                         [](const auto& engine) {
+                             return engine.param == Engine::geopackage ? "GeoPackage"
+                                                                       : "PostgreSQL";
+                         });
+
+TEST_P(DatabaseOnAnyEngine, TakesEachTripOnce) {
+    const auto store = database_.import();
+    auto& trips = *store.trips;
+    trips.make_missing_key();
+    const RichTrip a{1}, b{2};
+    const std::vector<NewTrip> twice{a.as_new(), b.as_new(), a.as_new()};
+    EXPECT_THAT(trips.add_trips(twice), ElementsAre(true, true, false));
+    EXPECT_FALSE(add_rich_trip(trips, 2));
+    EXPECT_TRUE(trips.contains_trip(a.record.sha256));
+    EXPECT_FALSE(trips.contains_trip(trip_record(3).sha256));
+    EXPECT_TRUE(trips.is_trip_of(a.record.sha256, a.record.vehicle_id));
+    EXPECT_FALSE(trips.is_trip_of(a.record.sha256, b.record.vehicle_id));
+    const auto settings = trips.settings_of_trip(a.record.sha256);
+    ASSERT_TRUE(settings);
+    EXPECT_EQ(settings->method, a.record.method);
+    EXPECT_EQ(settings->vehicle_model, a.record.vehicle_model);
+    EXPECT_FALSE(trips.settings_of_trip(trip_record(3).sha256));
+    EXPECT_EQ(database_.read().info().trips, 2U);
+}
+
+TEST_P(DatabaseOnAnyEngine, HasTheDigestOfAFileFilledInTheOppositeOrder) {
+    import_all();
+    EXPECT_EQ(database_.read().digest(),
+              Oracle(folder_ / "all.gpkg", all_trips()).store().digest());
+}
+
+TEST_P(DatabaseOnAnyEngine, FusesWhatIsNewAndThenNothing) {
+    const auto store = database_.import();
+    EXPECT_EQ(store.trips->waiting(), 0U);
+    add_rich_trip(*store.trips, 1);
+    EXPECT_EQ(store.trips->waiting(), 20U);
+    FusionRecord record;
+    EXPECT_EQ(store.trips->refresh({}, record), 20U);
+    EXPECT_TRUE(record.audit);
+    EXPECT_EQ(store.trips->waiting(), 0U);
+    EXPECT_EQ(store.trips->refresh({}, record), 0U);
+    EXPECT_EQ(store.trips->alignment().drives, 2);
+}
+
+TEST_P(DatabaseOnAnyEngine, AnswersQueriesByEveryFilter) {
+    import_all();
+    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    const auto reader = database_.read();
+    SegmentFilter worst, period, box, road, often, key;
+    worst.worst = 5;
+    period.period = Period{.from_ms = 1'765'000'000'000, .until_ms = {}};
+    box.box = GeoBox{4.80, 45.75, 4.8305, 45.77};
+    road.name_part = "rue";
+    often.min_passes = 2;
+    key.key = SegmentKey{1, true, 3};
+    for (const auto& filter : {SegmentFilter{}, worst, period, box, road, often, key}) {
+        EXPECT_EQ(values_of(reader, filter), values_of(oracle.store(), filter));
+    }
+    EXPECT_THAT(values_of(reader, key), SizeIs(1));
+    EXPECT_THAT(reader.events({}), SizeIs(oracle.store().events({}).size()));
+}
+
+TEST_P(DatabaseOnAnyEngine, TellsTheHistoryOfASegment) {
+    import_all();
+    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    const auto history = database_.read().history({1, true, 3});
+    const auto expected = oracle.store().history({1, true, 3});
+    ASSERT_EQ(history.size(), expected.size());
+    for (std::size_t i = 0; i < history.size(); ++i) {
+        EXPECT_EQ(history[i].trip_sha256, expected[i].trip_sha256);
+        EXPECT_EQ(history[i].pass.iri_um, expected[i].pass.iri_um);
+        EXPECT_EQ(history[i].lag_m, expected[i].lag_m);
+        EXPECT_EQ(history[i].utc_ms, expected[i].utc_ms);
+    }
+    EXPECT_THAT(database_.read().changes({1, true, 3}), Not(IsEmpty()));
+}
+
+TEST_P(DatabaseOnAnyEngine, ForgetsATripAsIfItHadNeverBeenThere) {
+    import_all();
+    const auto gone = trip_record(2).sha256;
+    EXPECT_EQ(database_.maintain().maintenance.forget({.trips = {gone}, .vehicles = {}}).trips, 1U);
+    EXPECT_EQ(database_.read().digest(),
+              Oracle(folder_ / "others.gpkg", {0, 1, 3, 4, 5}).store().digest());
+
+    const auto store = database_.import();
+    EXPECT_TRUE(store.trips->has_forgotten(gone));
+    EXPECT_FALSE(add_rich_trip(*store.trips, 2));
+    EXPECT_TRUE(add_rich_trip(*store.trips, 2, true));
+    fuse_all(*store.trips);
+    EXPECT_EQ(database_.read().digest(),
+              Oracle(folder_ / "all.gpkg", all_trips()).store().digest());
+}
+
+TEST_P(DatabaseOnAnyEngine, ForgetsACarByItsName) {
+    import_all();
+    const auto car = trip_record(0).vehicle_id;
+    const auto forgotten =
+        database_.maintain().maintenance.forget({.trips = {}, .vehicles = {car}});
+    EXPECT_GE(forgotten.trips, 1U);
+    EXPECT_EQ(database_.read().info().trips, trip_count - forgotten.trips);
+    EXPECT_THAT(refusal_of([&] {
+                    database_.maintain().maintenance.forget({.trips = {}, .vehicles = {car}});
+                }),
+                HasSubstr("has no trip of vehicle"));
+}
+
+TEST_P(DatabaseOnAnyEngine, CountsPassesFromTheDayOfAResurfacing) {
+    import_all();
+    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    const std::vector<SegmentKey> resurfaced{{1, true, 0}, {1, true, 1}};
+    const auto set_in = [&](RoadStore store) {
+        return store.maintenance.set_valid_from(resurfaced, 1'765'000'000'000, "new surface");
+    };
+    EXPECT_EQ(set_in(database_.maintain()), 2U);
+    set_in(oracle.store());
+    const auto reader = database_.read();
+    EXPECT_EQ(reader.digest(), oracle.store().digest());
+    EXPECT_THAT(reader.valid_since(), SizeIs(2));
+
+    const auto store = database_.import(); // later imports keep to it
+    add_rich_trip(*store.trips, 7);
+    fuse_all(*store.trips);
+    add_rich_trip(*import_store_of(oracle.store()).trips, 7);
+    fuse_all(*import_store_of(oracle.store()).trips);
+    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+}
+
+TEST_P(DatabaseOnAnyEngine, ReplacesTheResultsOfATrip) {
+    import_all();
+    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    const auto restage = [](RoadStore store) {
+        RichTrip again{2};
+        for (auto& pass : again.passes) {
+            pass.iri_um += 500;
+        }
+        EXPECT_TRUE(stage_trip(store, again.record, again.passes, again.traces, again.events));
+        EXPECT_EQ(store.maintenance.commit_staged("method smoother").generation, 2);
+    };
+    restage(database_.maintain());
+    restage(oracle.store());
+    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+    EXPECT_EQ(database_.read().info().generation, 2);
+}
+
+TEST_P(DatabaseOnAnyEngine, MovesItsPassesToANewerMap) {
+    import_all();
+    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    const auto update = [](RoadStore store) {
+        const auto before = store.roads();
+        auto network = edited(copies_of_ways(before));
+        network.ways.front().way.name = "Rue Neuve";
+        nudge(network, [](std::int64_t, const GeoPoint& at) {
+            return GeoPoint{at.lat_deg + 1e-6, at.lon_deg};
+        });
+        const auto after = build_network(ways_of(network));
+        return store.maintenance.update_network(
+            before, after, change_between(before, after), {"newer.osm", ""});
+    };
+    EXPECT_TRUE(update(database_.maintain()).changed);
+    EXPECT_TRUE(update(oracle.store()).changed);
+    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+
+    const auto store = database_.import(); // over the new roads
+    add_rich_trip(*store.trips, 7);
+    fuse_all(*store.trips);
+    add_rich_trip(*import_store_of(oracle.store()).trips, 7);
+    fuse_all(*import_store_of(oracle.store()).trips);
+    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+}
+
+TEST_P(DatabaseOnAnyEngine, RemembersAnImportThatDidNotEnd) {
+    {
+        const auto store = database_.import();
+        EXPECT_FALSE(store.trips->begin_import("a", 3).earlier);
+        add_rich_trip(*store.trips, 1);
+        const auto other = database_.import();
+        EXPECT_TRUE(other.trips->begin_import("a", 3).same_runs);
+        EXPECT_FALSE(other.trips->begin_import("b", 3).same_runs);
+        EXPECT_TRUE(other.trips->begin_import("b", 3).other_runs);
+        other.trips->end_import("b");
+    }
+    const auto store = database_.import();
+    const auto begun = store.trips->begin_import("a", 3);
+    EXPECT_FALSE(begun.same_runs);
+    ASSERT_TRUE(begun.earlier);
+    EXPECT_EQ(begun.earlier->trips_asked, 3U);
+    EXPECT_EQ(begun.earlier->trips_added, 1U);
+    store.trips->end_import("a");
+    EXPECT_FALSE(database_.import().trips->begin_import("a", 3).earlier);
+}
+
+TEST_P(DatabaseOnAnyEngine, TakesAllTripsOfACallOrNone) {
+    const auto store = database_.import();
+    const RichTrip good{1};
+    RichTrip elsewhere{2};
+    elsewhere.passes.front().segment.index = 400;
+    const std::vector<NewTrip> both{good.as_new(), elsewhere.as_new()};
+    EXPECT_THAT(refusal_of([&] { store.trips->add_trips(both); }),
+                HasSubstr("has no segment '1+0400', expected passes over its own network"));
+    EXPECT_FALSE(store.trips->contains_trip(good.record.sha256));
+    EXPECT_EQ(store.trips->waiting(), 0U);
+    EXPECT_TRUE(add_rich_trip(*store.trips, 1));
+}
+
+} // namespace
+} // namespace macadam::testing

@@ -1,0 +1,188 @@
+// Many workers that import into one PostgreSQL server and fuse there.
+
+#include "storage/store/server/importer/server_importer.hpp"
+
+#include "storage/postgres/server_connection.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
+#include "storage/store/server/store_copy.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/engine_world.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class ServerImports : public ::testing::Test {
+protected:
+    std::string file_digest(int trips) {
+        auto store = new_store(folder_ / "file.gpkg");
+        import_rich_trips(*import_store_of(store).trips, trips);
+        return store.digest();
+    }
+
+    /// Waits until some other connection waits for something of this kind.
+    void await_waiter(const std::string& what) {
+        ServerConnection boss{database_.server().address("roads")};
+        for (int i = 0; i < 3000; ++i) {
+            if (boss.number("SELECT count(*) FROM pg_stat_activity WHERE " + what) > 0) {
+                return;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        FAIL() << "nobody waits: " << what;
+    }
+
+    std::int64_t number(const std::string& sql) {
+        return ServerConnection{database_.name()}.number(sql);
+    }
+
+    std::filesystem::path folder_ = test_folder();
+    EngineDatabase database_{Engine::postgresql, folder_};
+};
+
+TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFile) {
+    constexpr int trips = 24, orders = 2;
+    constexpr std::size_t workers = 4;
+    const auto expected = file_digest(trips);
+    for (unsigned order = 0; order < orders; ++order) {
+        const auto address = order == 0 ? database_.name() : database_.server().new_database("b");
+        if (order > 0) {
+            static_cast<void>(new_store(folder_ / "b.gpkg"));
+            copy_to_server(folder_ / "b.gpkg", address, {}, {});
+        }
+        std::vector<int> deliveries;
+        for (int number = 0; number < trips; ++number) {
+            deliveries.insert(deliveries.end(), {number, number});
+        }
+        std::ranges::shuffle(deliveries, std::mt19937{order});
+        std::vector<std::future<int>> added;
+        for (std::size_t worker = 0; worker < workers; ++worker) {
+            added.push_back(std::async(std::launch::async, [&, worker] {
+                const auto open = open_server_import(address);
+                int fresh = 0;
+                for (std::size_t i = worker; i < deliveries.size(); i += workers) {
+                    fresh += add_rich_trip(*open.trips, deliveries[i]) ? 1 : 0;
+                    if (i % 3 == 0) {
+                        fuse_all(*open.trips);
+                    }
+                }
+                fuse_all(*open.trips);
+                return fresh;
+            }));
+        }
+        int fresh = 0;
+        for (auto& worker : added) {
+            fresh += worker.get();
+        }
+        EXPECT_EQ(fresh, trips);
+        EXPECT_EQ(ServerConnection{address}.number("SELECT count(*) FROM macadam.chunk_dirty"), 0);
+        const StoreReader reader{open_server_moment(address, {}, {})};
+        EXPECT_EQ(reader.digest(), expected) << order;
+        EXPECT_EQ(reader.info().trips, static_cast<std::size_t>(trips));
+        EXPECT_EQ(reader.info().vehicles.size(), 3U);
+    }
+}
+
+TEST_F(ServerImports, LoseNoMarkThatIsSetWhileAChunkIsFused) {
+    const auto store = database_.import();
+    add_rich_trip(*store.trips, 1);
+    ServerConnection importer{database_.name()};
+    importer.begin(false);
+    importer.run("UPDATE macadam.chunk_dirty SET marks = marks + 1"); // as one more drive does
+    auto fusing = std::async(std::launch::async, [&] { fuse_all(*store.trips); });
+    await_waiter("wait_event_type = 'Lock' AND query LIKE '%FOR UPDATE%'");
+    importer.commit();
+    fusing.get();
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty WHERE marks = 2"), 2);
+    fuse_all(*store.trips);
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty"), 0);
+}
+
+TEST_F(ServerImports, SayThatATripIsInDoubtUntilItsStandbyHasIt) {
+    const auto boss = database_.server().address("roads");
+    const auto is_waiting = std::string{"wait_event = 'SyncRep'"};
+    const auto store = database_.import();
+    ServerConnection{boss}.run("ALTER SYSTEM SET synchronous_standby_names = 'nobody'");
+    ServerConnection{boss}.run("SELECT pg_reload_conf()");
+    std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    auto first = std::async(std::launch::async,
+                            [&] { return refusal_of([&] { add_rich_trip(*store.trips, 1); }); });
+    await_waiter(is_waiting);
+    ServerConnection{boss}.number(
+        "SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " + is_waiting);
+    EXPECT_THAT(first.get(), AllOf(HasSubstr("in doubt"), HasSubstr("run the command again")));
+
+    // The server has it, but "known" is not said before the standby does.
+    auto again = std::async(std::launch::async, [&] { return add_rich_trip(*store.trips, 1); });
+    await_waiter(is_waiting);
+    EXPECT_EQ(again.wait_for(std::chrono::milliseconds{100}), std::future_status::timeout);
+    ServerConnection{boss}.run("ALTER SYSTEM RESET synchronous_standby_names");
+    ServerConnection{boss}.run("SELECT pg_reload_conf()");
+    EXPECT_FALSE(again.get());
+    EXPECT_TRUE(store.trips->contains_trip(trip_record(1).sha256));
+}
+
+TEST_F(ServerImports, WaitForWhoWorksOnTheWholeDatabase) {
+    const auto store = database_.import();
+    std::future<bool> added;
+    {
+        const RoadStore alone{open_server_replica(database_.name(), {}, {})};
+        added = std::async(std::launch::async, [&] { return add_rich_trip(*store.trips, 1); });
+        await_waiter("wait_event = 'advisory'");
+        EXPECT_EQ(number("SELECT count(*) FROM macadam.trip"), 0);
+    }
+    EXPECT_TRUE(added.get());
+}
+
+TEST_F(ServerImports, RefuseToGoOnOverOtherRoads) {
+    const auto store = database_.import();
+    ServerConnection{database_.name()}.run(
+        "UPDATE macadam.meta SET value = gen_random_uuid()::text WHERE key = 'network_rows'");
+    EXPECT_THAT(
+        refusal_of([&] { add_rich_trip(*store.trips, 1); }),
+        HasSubstr("its roads or its key were changed in the meantime; nothing was written"));
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.trip"), 0);
+    EXPECT_TRUE(add_rich_trip(*database_.import().trips, 1));
+}
+
+TEST_F(ServerImports, NeedTheKeyOfTheCars) {
+    const auto key = database_.import().trips->key_file();
+    ASSERT_TRUE(std::filesystem::remove(key));
+    EXPECT_THAT(refusal_of([&] { add_rich_trip(*database_.import().trips, 1); }),
+                AllOf(HasSubstr("the key of its cars is not at " + key.string()),
+                      HasSubstr("copy it there from")));
+}
+
+TEST_F(ServerImports, AreWrittenByTheRoleOfAnImporter) {
+    const auto boss = database_.server().address("roads");
+    ServerConnection{boss}.run(
+        "CREATE ROLE macadam_importer NOLOGIN; GRANT USAGE ON SCHEMA macadam TO macadam_importer;"
+        "GRANT SELECT ON ALL TABLES IN SCHEMA macadam TO macadam_importer;"
+        "GRANT USAGE ON ALL SEQUENCES IN SCHEMA macadam TO macadam_importer;"
+        "GRANT INSERT, UPDATE, DELETE ON macadam.vehicle, macadam.trip, macadam.row_reason,"
+        " macadam.drive, macadam.event, macadam.event_search, macadam.segment_state,"
+        " macadam.chunk_state, macadam.chunk_dirty, macadam.import_note, macadam.audit,"
+        " macadam.state_change TO macadam_importer;"
+        "CREATE ROLE driver LOGIN IN ROLE macadam_importer");
+    const auto open = open_server_import(database_.server().address("roads", "driver"));
+    open.trips->begin_import("a", 3);
+    import_rich_trips(*open.trips, 3);
+    open.trips->end_import("a");
+    EXPECT_EQ(database_.read().digest(), file_digest(3));
+}
+
+} // namespace
+} // namespace macadam::testing

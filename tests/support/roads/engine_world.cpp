@@ -1,0 +1,87 @@
+#include "support/roads/engine_world.hpp"
+
+#include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
+#include "storage/store/server/store_copy.hpp"
+#include "support/roads/store_world.hpp"
+
+namespace macadam::testing {
+
+EngineDatabase::EngineDatabase(Engine engine, const std::filesystem::path& folder) {
+    const auto file = folder / "roads.gpkg";
+    static_cast<void>(new_store(file));
+    name_ = file.string();
+    if (engine == Engine::postgresql) {
+        server_.emplace();
+        name_ = server_->new_database("roads");
+        copy_to_server(file, name_, {}, {});
+    }
+}
+
+ImportStore EngineDatabase::import() const {
+    if (!server_) {
+        return import_store_of(RoadStore::open(name_));
+    }
+    const auto open = open_server_import(name_);
+    return {name_, StoreReader{open.image}, open.trips};
+}
+
+StoreReader EngineDatabase::read() const {
+    return server_ ? StoreReader{open_server_moment(name_, {}, {})} : StoreReader::open(name_);
+}
+
+RoadStore EngineDatabase::maintain() const {
+    return server_ ? RoadStore{open_server_replica(name_, {}, {})} : RoadStore::open(name_);
+}
+
+RichTrip::RichTrip(int number) : record{trip_record(number)}, passes{passes_of(number)} {
+    record.row_reasons = {{"too_slow", 7U}};
+    for (auto& pass : passes) {
+        pass.drive = 0;
+    }
+    for (const bool forward : {true, false}) {
+        RoughnessTrace trace{.chunk = {1, forward, 0},
+                             .drive = 0,
+                             .first_m = forward ? -10 : -210,
+                             .iri = {},
+                             .left = {},
+                             .place_sd_mm = 900};
+        for (int metre = 0; metre < 220; ++metre) {
+            trace.iri.push_back(code_of(1.0 + 0.1 * ((metre * 7 + number) % 23)));
+        }
+        traces.push_back(trace);
+    }
+    events = {{.segment = {1, true, 3},
+               .occurrence = 0,
+               .kind = EventKind::pothole,
+               .track = WheelTrack::left,
+               .at_mm = 71'000 + 100 * number,
+               .place_sd_mm = 800,
+               .size_um = 40'000,
+               .sd_um = 5'000,
+               .length_mm = 500}};
+}
+
+NewTrip RichTrip::as_new(bool readmit) const {
+    return {&record, passes, traces, readmit, events};
+}
+
+bool add_rich_trip(ImportTarget& trips, int number, bool readmit) {
+    const RichTrip trip{number};
+    const auto one = trip.as_new(readmit);
+    return trips.add_trips({&one, 1}).front();
+}
+
+void import_rich_trips(ImportTarget& trips, int count) {
+    for (int number = 0; number < count; ++number) {
+        add_rich_trip(trips, number);
+    }
+    fuse_all(trips);
+}
+
+void fuse_all(ImportTarget& trips) {
+    FusionRecord record;
+    trips.refresh({}, record);
+}
+
+} // namespace macadam::testing
