@@ -62,13 +62,16 @@ struct HttpFile {
     std::uint64_t size;
 };
 
+class HttpStream;
+
 struct HttpResponse {
     int status = 200;
     std::string type = "application/json";
     std::string body{};
-    std::optional<HttpFile> file{}; ///< instead of the body
-    bool is_gzipped = false;        ///< the body is compressed already
-    std::string etag{};             ///< without quotes; "" = none
+    std::optional<HttpFile> file{};       ///< instead of the body
+    std::shared_ptr<HttpStream> stream{}; ///< instead of the body
+    bool is_gzipped = false;              ///< the body is compressed already
+    std::string etag{};                   ///< without quotes; "" = none
     std::string cache_control = "no-cache";
     std::vector<std::pair<std::string, std::string>> headers{}; ///< further ones
     std::string_view route = "other"; ///< pattern of the path, for logs; of static lifetime

@@ -1,9 +1,9 @@
 #include "app/http/http_server.hpp"
 
 #include "app/http/connection_deadlines.hpp"
+#include "app/http/http_stream.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/http/mhd_connection.hpp"
-#include "app/http/mhd_daemon.hpp"
 #include "app/http/request_check.hpp"
 #include "app/http/response_finish.hpp"
 #include "app/http/worker_lane.hpp"
@@ -18,9 +18,11 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <unistd.h>
 
@@ -252,6 +254,9 @@ struct HttpServer::Impl final : MhdEvents {
                              std::chrono::duration_cast<std::chrono::microseconds>(
                                  Clock::now() - exchange.begin)});
         }
+        if (response.stream) {
+            keep_stream(response.stream);
+        }
         const auto result = send_response(connection, response);
         response.file.reset(); // the connection has one of its own
         return result;
@@ -319,10 +324,31 @@ struct HttpServer::Impl final : MhdEvents {
         answer(exchange, http_problem(500, "the server's log says more"));
     }
 
+    /// Notes a stream, which is ended when the server stops.
+    void keep_stream(const std::shared_ptr<HttpStream>& stream) {
+        const std::lock_guard lock{streams_mutex};
+        std::erase_if(streams, [](const auto& each) { return each.expired(); });
+        streams.push_back(stream);
+        if (is_draining) {
+            stream->end();
+        }
+    }
+
+    void end_streams() {
+        const std::lock_guard lock{streams_mutex};
+        is_draining = true;
+        for (const auto& each : streams) {
+            if (const auto stream = each.lock()) {
+                stream->end();
+            }
+        }
+    }
+
     void drain(std::chrono::milliseconds at_most) {
         if (quiesced < 0) {
             quiesced = MHD_quiesce_daemon(daemon);
         }
+        end_streams();
         const auto end = Clock::now() + at_most;
         constexpr std::chrono::milliseconds pause{5};
         while (at_work > 0 && Clock::now() < end) {
@@ -341,6 +367,9 @@ struct HttpServer::Impl final : MhdEvents {
     std::atomic<std::size_t> at_work = 0;
     std::atomic<std::uint64_t> unread_bytes = 0;
     std::map<std::string, std::size_t> requests_of; ///< of clients, at work
+    std::mutex streams_mutex;                       ///< guards the two below
+    std::vector<std::weak_ptr<HttpStream>> streams;
+    bool is_draining = false;
     std::deque<WorkerLane> lanes;
 };
 

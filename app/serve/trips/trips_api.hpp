@@ -2,6 +2,7 @@
 
 #include "app/http/http_server.hpp"
 #include "app/serve/trips/token_buckets.hpp"
+#include "app/serve/trips/upload_events.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/uploads/access_token.hpp"
 
@@ -70,6 +71,7 @@ private:
     admit_upload(const HttpRequest& request, const std::string& sha256, const AccessToken& token);
     HttpResponse take_upload(Database& uploads, const HttpRequest& request);
     static HttpResponse accept_invitation(Database& uploads, const HttpRequest& request);
+    HttpResponse follow(const HttpRequest& request, const Upload& upload);
     HttpResponse list(Database& uploads, const AccessToken& token) const;
     HttpResponse one(Database& uploads,
                      const HttpRequest& request,
@@ -80,6 +82,7 @@ private:
     TripsApiConfig config_;
     std::function<void()> queued_;
     std::atomic<bool> is_crowd_ = false;
+    UploadEvents events_;
     std::optional<Database> of_network_; ///< of the thread of the network, which must not wait
     TokenBuckets by_token_;
     TokenBuckets by_address_;

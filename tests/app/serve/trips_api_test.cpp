@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -291,21 +292,33 @@ TEST(TripsApi, AnswersWhileAnUploadWaitsForTheDisk) {
     EXPECT_EQ(waiting.get().status, 202);
 }
 
-TEST(TripsApi, TellsTheFateByServerSentEvents) {
+/// Client that waits for the events of an upload.
+HttpClient& follow(HttpClient& client, const std::string& target, const std::string& token) {
+    client.send(fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {}\r\n"
+                            "Accept: text/event-stream\r\n\r\n",
+                            target,
+                            token));
+    return client;
+}
+
+TEST(TripsApi, StreamsTheFateAsItChanges) {
     const TakingWorld world;
     const std::string log = "a log";
     const auto target = "/v1/trips/" + sha256_of(log);
     world.put(log, world.anna);
-    const auto answer = world.ask("GET", target, world.anna, "", "Accept: text/event-stream\r\n");
-    EXPECT_EQ(answer.headers.at("content-type"), "text/event-stream");
-    EXPECT_THAT(answer.body,
-                HasSubstr("retry: 1000\nid: queued\nevent: state\ndata: {\"sha256\":"));
-    EXPECT_TRUE(answer.body.ends_with("\n\n"));
+    HttpClient client{world.port};
+    const auto first = follow(client, target, world.anna).read_until("\n\n");
+    EXPECT_THAT(first, HasSubstr("text/event-stream"));
+    EXPECT_THAT(first, HasSubstr("retry: 1000\nid: queued\nevent: state\ndata: {\"sha256\":"));
     auto uploads = open_uploads(world.file);
     const auto taken = take_uploads(uploads, spool_of(world.file), 1);
+    EXPECT_THAT(client.read_until("\n\n"), HasSubstr("id: working\n"));
     finish_upload(uploads, spool_of(world.file), taken.at(0).upload(), UploadState::refused, "why");
-    EXPECT_THAT(world.ask("GET", target, world.anna, "", "Accept: text/event-stream\r\n").body,
-                HasSubstr("id: refused\n"));
+    const auto last = client.read_until("\r\n0\r\n\r\n");
+    EXPECT_THAT(last, HasSubstr("id: refused\n"));
+    EXPECT_TRUE(last.ends_with("\r\n0\r\n\r\n"));                   // the stream has ended
+    client.send("GET /health HTTP/1.1\r\nHost: localhost\r\n\r\n"); // on the same connection
+    EXPECT_EQ(client.answer().status, 200);
     EXPECT_EQ(world
                   .ask("GET",
                        target,
@@ -314,6 +327,33 @@ TEST(TripsApi, TellsTheFateByServerSentEvents) {
                        "Accept: text/event-stream\r\nLast-Event-ID: refused\r\n")
                   .status,
               204);
+}
+
+TEST(TripsApi, EndsTheStreamOfARevokedToken) {
+    TakingWorld world;
+    world.put("a log", world.anna);
+    HttpClient client{world.port};
+    follow(client, "/v1/trips/" + sha256_of("a log"), world.anna).read_until("id: queued");
+    revoke_tokens(world.uploads, "anna");
+    EXPECT_TRUE(client.read_until("\r\n0\r\n\r\n").ends_with("\r\n0\r\n\r\n"));
+}
+
+TEST(TripsApi, EndsStreamsWhenItStops) {
+    TakingWorld world;
+    world.put("a log", world.anna);
+    std::deque<HttpClient> clients;
+    for (int i = 0; i < 20; ++i) { // some of which have gone
+        auto& client = clients.emplace_back(world.port);
+        follow(client, "/v1/trips/" + sha256_of("a log"), world.anna).read_until("id: queued");
+        if (i % 2 == 0) {
+            clients.pop_back();
+        }
+    }
+    EXPECT_EQ(world.ask("GET", "/health", "").status, 200);
+    world.stop.request_stop();
+    for (auto& client : clients) {
+        EXPECT_TRUE(client.read_until("\r\n0\r\n\r\n").ends_with("\r\n0\r\n\r\n"));
+    }
 }
 
 TEST(TripsApi, ShowsNothingWithoutATokenIfAsked) {

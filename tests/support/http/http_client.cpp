@@ -87,6 +87,16 @@ Answer HttpClient::answer(bool has_body) {
     return answer;
 }
 
+std::string HttpClient::read_until(std::string_view words) {
+    while (read_.find(words) == std::string::npos && read_more()) {
+    }
+    const auto at = read_.find(words);
+    const auto size = at == std::string::npos ? read_.size() : at + words.size();
+    auto text = read_.substr(0, size);
+    read_.erase(0, size);
+    return text;
+}
+
 Answer get(std::uint16_t port, std::string_view target, std::string_view headers) {
     HttpClient client{port};
     client.send(

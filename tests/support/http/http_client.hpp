@@ -25,8 +25,9 @@ public:
     ~HttpClient();
 
     void send(std::string_view bytes) const;
-    Answer answer(bool has_body = true); ///< reads one response
-    bool is_closed();                    ///< waits until the server closes it
+    Answer answer(bool has_body = true);            ///< reads one response
+    std::string read_until(std::string_view words); ///< reads until they have come, or the end
+    bool is_closed();                               ///< waits until the server closes it
 
 private:
     bool read_more();
