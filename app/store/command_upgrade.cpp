@@ -1,8 +1,10 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 
+#include "storage/postgres/server_address.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/server/server_schema.hpp"
 #include "storage/store/upgrade/store_upgrade.hpp"
 #include "storage/text/json.hpp"
 
@@ -49,8 +51,32 @@ std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file)
                        done.digest);
 }
 
+/// Upgrades the schema of a database on a server, whose data stay as they are.
+void upgrade_server(const std::string& address, bool json) {
+    ServerConnection server{address};
+    const int before = upgrade_server_schema(server);
+    if (json) {
+        JsonObject object;
+        object.add("from_version", std::int64_t{before})
+            .add("to_version", std::int64_t{server_schema_version});
+        print(object.text() + "\n");
+    } else {
+        print_words(
+            before == server_schema_version
+                ? fmt::format("{}: is already of version {}, nothing to do\n", address, before)
+                : fmt::format("{}: schema upgraded from version {} to {}\n",
+                              address,
+                              before,
+                              server_schema_version));
+    }
+}
+
 void run_upgrade(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
+    if (is_server_address(file.string())) {
+        upgrade_server(file.string(), arguments.flag("--json"));
+        return;
+    }
     const auto done =
         upgrade_store(file, wait_policy_for(file, console), [&](std::string_view part) {
             return console.progress(std::string{part});
@@ -62,7 +88,7 @@ void run_upgrade(const Arguments& arguments, const Console& console) {
     }
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{source_operand};
 constexpr std::array options{Option{"--json", "", "Print the result as one JSON object."}};
 
 } // namespace
@@ -74,8 +100,10 @@ const Command upgrade_command{
              "which is computed before and\n"
              "after. All is one transaction: on any failure the database is unchanged. Cars "
              "get pseudonyms under a key,\n"
-             "which is written beside the database (docs/reference/database.md).",
-    .example = "  macadam upgrade roads.gpkg",
+             "which is written beside the database (docs/reference/database.md). On a server, "
+             "missing migrations of the schema run.",
+    .example = "  macadam upgrade roads.gpkg\n"
+               "  macadam upgrade postgresql://me@db.example.org/roads",
     .operands = operands,
     .options = options,
     .run = run_upgrade};

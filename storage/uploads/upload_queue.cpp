@@ -1,7 +1,5 @@
 #include "storage/uploads/upload_queue.hpp"
 
-#include <algorithm>
-#include <array>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -16,19 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> state_names{
-    "queued", "working", "imported", "known", "outside", "refused"};
-
 const std::string select_uploads =
     "SELECT sha256, owner, suffix, bytes, received_ms, state, attempts, deleting, reason,"
     " (SELECT count(*) FROM upload_trip WHERE upload = number),"
     " (SELECT coalesce(sum(passes), 0) FROM upload_trip WHERE upload = number) FROM upload ";
-
-UploadState state_named(std::string_view name) {
-    const auto* const found = std::ranges::find(state_names, name);
-    return found == state_names.end() ? UploadState::refused
-                                      : static_cast<UploadState>(found - state_names.begin());
-}
 
 Upload upload_in(const Statement& row) {
     return {.sha256 = row.text(0),
@@ -42,10 +31,6 @@ Upload upload_in(const Statement& row) {
             .reason = row.text(8),
             .trips = static_cast<std::size_t>(row.integer(9)),
             .passes = row.integer(10)};
-}
-
-bool is_waiting(const Upload& upload) {
-    return upload.state == UploadState::queued || upload.state == UploadState::working;
 }
 
 /// Opens and locks a file of the spool; -1 if it has gone or another program works on it.
@@ -68,10 +53,6 @@ constexpr const char* insert_trip =
     " ON CONFLICT DO NOTHING";
 
 } // namespace
-
-std::string_view name_of(UploadState state) {
-    return state_names.at(static_cast<std::size_t>(state));
-}
 
 std::optional<Upload> find_upload(Database& uploads, std::string_view sha256) {
     auto row = uploads.prepare(select_uploads + "WHERE sha256 = ?");
@@ -100,8 +81,7 @@ bool enqueue(Database& uploads, AtomicFile& file, const Upload& upload) {
     Transaction one{uploads, Transaction::Kind::write};
     if (const auto known = find_upload(uploads, upload.sha256)) {
         const bool is_to_retry =
-            (known->state == UploadState::refused || known->state == UploadState::outside) &&
-            known->owner == upload.owner && !known->deleting;
+            is_tried_again(known->state) && known->owner == upload.owner && !known->deleting;
         if (!is_to_retry) {
             return false;
         }
@@ -123,10 +103,10 @@ bool delete_upload(Database& uploads, const fs::path& spool, std::string_view sh
         return true;
     }
     const auto file = upload->file_in(spool);
-    const int lock = is_waiting(*upload) ? locked(file) : -1;
+    const int lock = is_waiting(upload->state) ? locked(file) : -1;
     // A log that was begun before a kill may have its trips in the database already.
     const bool is_untouched =
-        is_waiting(*upload) ? lock >= 0 && upload->attempts == 0 : upload->trips == 0;
+        is_waiting(upload->state) ? lock >= 0 && upload->attempts == 0 : upload->trips == 0;
     uploads
         .prepare(is_untouched ? "DELETE FROM upload WHERE sha256 = ?"
                               : "UPDATE upload SET deleting = 1 WHERE sha256 = ?")

@@ -2,6 +2,7 @@
 
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/uploads/upload_state.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +16,6 @@
 #include <vector>
 
 namespace macadam {
-
-/// Fate of an upload: `known` were imported before, by another way; `outside` touch no road.
-enum class UploadState : std::uint8_t { queued, working, imported, known, outside, refused };
-
-std::string_view name_of(UploadState state);
 
 /// Log, or archive of logs, that a contributor has sent.
 struct Upload {

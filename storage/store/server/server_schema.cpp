@@ -1,12 +1,14 @@
 #include "storage/store/server/server_schema.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/store/server/job_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
 #include "storage/styles/road_style.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -247,6 +249,25 @@ std::string read_by_all() {
     return names;
 }
 
+/// Step after migration 1.
+struct Migration {
+    int number;
+    const char* what;
+    const char* sql;
+};
+
+const std::array migrations{Migration{2, "queue for workers", job_schema}};
+
+void run_migrations_after(int version, ServerConnection& server) {
+    for (const auto& [number, what, sql] : migrations) {
+        if (number > version) {
+            server.run(sql);
+            server.rows("INSERT INTO macadam.migration VALUES ($1, $2)",
+                        {std::to_string(number), what});
+        }
+    }
+}
+
 bool has_schema(ServerConnection& server) {
     return server.number("SELECT count(*) FROM pg_namespace WHERE nspname = 'macadam'") != 0;
 }
@@ -262,6 +283,24 @@ std::string postgis_schema(ServerConnection& server) {
                                      server.address())};
     }
     return *found[0][0];
+}
+
+/// Version of the schema, not newer than this program.
+int version_of(ServerConnection& server) {
+    if (!has_schema(server)) {
+        throw InputError{fmt::format("{0}: has no road database: 'macadam copy roads.gpkg {0}' "
+                                     "makes one",
+                                     server.address())};
+    }
+    const auto version = server.number("SELECT coalesce(max(number), 0) FROM macadam.migration");
+    if (version > server_schema_version) {
+        throw InputError{fmt::format("{}: its schema is of version {}, expected {}: it was made by "
+                                     "a newer version of Macadam",
+                                     server.address(),
+                                     version,
+                                     server_schema_version)};
+    }
+    return static_cast<int>(version);
 }
 
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
@@ -289,6 +328,7 @@ void create_server_schema(ServerConnection& server) {
     server.run(roughness_view);
     server.run(cells);
     server.run(replaced(replaced(roles, "{0}", read_by_all()), "{1}", written_by_importers));
+    run_migrations_after(1, server);
 }
 
 void add_server_cells(ServerConnection& server, const std::set<std::int32_t>& numbers) {
@@ -323,20 +363,23 @@ void add_server_style(ServerConnection& server, const ClassTable& classes) {
 }
 
 void expect_server_schema(ServerConnection& server) {
-    if (!has_schema(server)) {
-        throw InputError{fmt::format("{0}: has no road database: 'macadam copy roads.gpkg {0}' "
-                                     "makes one",
-                                     server.address())};
+    if (const auto version = version_of(server); version < server_schema_version) {
+        throw InputError{fmt::format("{0}: its schema is of version {1}, expected {2}: 'macadam "
+                                     "upgrade {0}' brings it there",
+                                     server.address(),
+                                     version,
+                                     server_schema_version)};
     }
-    const auto version = server.number("SELECT coalesce(max(number), 0) FROM macadam.migration");
-    if (version != server_schema_version) {
-        throw InputError{fmt::format(
-            "{}: its schema is of version {}, expected {}{}",
-            server.address(),
-            version,
-            server_schema_version,
-            version > server_schema_version ? ": it was made by a newer version of Macadam" : "")};
-    }
+}
+
+int upgrade_server_schema(ServerConnection& server) {
+    server.begin(false);
+    static_cast<void>(version_of(server)); // says what is missing
+    server.run("LOCK TABLE macadam.migration IN SHARE ROW EXCLUSIVE MODE");
+    const auto version = version_of(server);
+    run_migrations_after(version, server);
+    server.commit();
+    return version;
 }
 
 std::int32_t cell_of(const GeoPoint& first_node) {

@@ -10,7 +10,7 @@
 namespace macadam {
 
 /// Number of the last migration that this program knows.
-inline constexpr int server_schema_version = 1;
+inline constexpr int server_schema_version = 2;
 
 /// Creates schema `macadam` with its tables, views, comments, rights and, as far as the role may
 /// create them, roles macadam_reader, macadam_importer and macadam_operator. Runs within the
@@ -36,6 +36,12 @@ inline constexpr const char* renew_network_rows =
 ///
 /// \throws InputError  if not.
 void expect_server_schema(ServerConnection& server);
+
+/// Runs the migrations that the schema lacks, in one transaction. Data stay as they are.
+/// \returns its version before.
+///
+/// \throws InputError  if there is none, it is newer, or the role does not own it.
+int upgrade_server_schema(ServerConnection& server);
 
 /// Cell of a way: the map tile of zoom 8 that holds its first node, as the number of its quadkey,
 /// 0 to 65,535.

@@ -1,0 +1,215 @@
+#include "storage/jobs/job_queue.hpp"
+
+#include "estimator/common/exact_number.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+std::int64_t number_in(const std::optional<std::string>& text) {
+    return text ? exact_number<std::int64_t>(*text).value_or(0) : 0;
+}
+
+/// Array of PostgreSQL of what one function gives for each job. Hashes, suffixes and numbers need
+/// no quoting; other text never comes here.
+template <typename Value>
+std::string array_of(std::span<const Job> jobs, Value value) {
+    std::string text;
+    for (const auto& job : jobs) {
+        text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", value(job));
+    }
+    return "{" + text + "}";
+}
+
+std::string hashes_of(std::span<const Job> jobs) {
+    return array_of(jobs, [](const Job& job) { return job.sha256; });
+}
+
+constexpr const char* job_columns = "sha256, suffix, bytes, attempts";
+
+std::vector<Job> jobs_in(const std::vector<ServerRow>& rows) {
+    std::vector<Job> jobs;
+    for (const auto& row : rows) {
+        jobs.push_back({.sha256 = row[0].value_or(""),
+                        .suffix = row[1].value_or(""),
+                        .bytes = number_in(row[2]),
+                        .attempts = static_cast<int>(number_in(row[3]))});
+    }
+    return jobs;
+}
+
+/// State before, of those that are there.
+std::map<std::string, UploadState>
+known_states(ServerConnection& server, std::span<const Job> logs, std::string_view lock) {
+    std::map<std::string, UploadState> states;
+    for (const auto& row :
+         server.rows(fmt::format("SELECT sha256, state FROM macadam.job WHERE sha256 = ANY($1)"
+                                 " ORDER BY sha256 {}",
+                                 lock),
+                     {hashes_of(logs)})) {
+        states.emplace(row[0].value_or(""), state_named(row[1].value_or("")));
+    }
+    return states;
+}
+
+/// Takes those that no one has, or whose worker let its lease run out.
+std::vector<Job>
+take(ServerConnection& server, const JobTaker& taker, std::size_t at_most, std::string_view begun) {
+    return jobs_in(server.rows(
+        fmt::format("WITH next AS (SELECT sha256 FROM macadam.job"
+                    " WHERE state IN ('queued', 'working') AND (attempts > 0) = {}"
+                    " AND (state = 'queued' AND not_before <= now() OR lease_until < now())"
+                    " AND attempts < {}"
+                    " ORDER BY number LIMIT $3 FOR UPDATE SKIP LOCKED)"
+                    " UPDATE macadam.job SET state = 'working', attempts = attempts + 1,"
+                    " worker = $1, lease_until = now() + $2::interval"
+                    " FROM next WHERE job.sha256 = next.sha256 RETURNING job.{}",
+                    begun,
+                    max_job_attempts,
+                    "sha256, job.suffix, job.bytes, job.attempts"),
+        {taker.worker, fmt::format("{} s", taker.lease.count()), std::to_string(at_most)}));
+}
+
+/// Parks jobs at which their fifth worker ended.
+void park_dead(ServerConnection& server) {
+    server.rows(fmt::format(
+        "UPDATE macadam.job SET state = 'parked', finished_at = now(), lease_until = NULL,"
+        " reason = 'its worker ended ' || attempts || ' times at this log' ||"
+        " CASE WHEN reason = '' THEN '' ELSE '; before: ' || reason END"
+        " WHERE sha256 IN (SELECT sha256 FROM macadam.job WHERE state = 'working'"
+        " AND attempts >= {} AND lease_until < now() FOR UPDATE SKIP LOCKED)",
+        max_job_attempts));
+}
+
+/// Condition by which a job is still the caller's: $1 job, $2 worker, $3 attempt.
+constexpr const char* is_ours =
+    " WHERE sha256 = $1 AND worker = $2 AND attempts = $3 AND state = 'working'";
+
+std::vector<std::optional<std::string>> ours(const JobTaker& taker, const Job& job) {
+    return {job.sha256, taker.worker, std::to_string(job.attempts)};
+}
+
+} // namespace
+
+std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
+                                                       std::span<const Job> logs) {
+    const auto known = known_states(server, logs, "");
+    std::vector<std::optional<UploadState>> states;
+    for (const auto& log : logs) {
+        const auto found = known.find(log.sha256);
+        states.push_back(found == known.end() ? std::nullopt : std::optional{found->second});
+    }
+    return states;
+}
+
+std::vector<Submission> submit_logs(ServerConnection& server, std::span<const Job> logs) {
+    ServerTransaction one{server};
+    const auto before = known_states(server, logs, "FOR UPDATE");
+    std::map<std::string, std::int64_t> submissions;
+    // A known row is written, too: then the commit waits for the standby, which may lack it.
+    const auto rows = server.rows(
+        "INSERT INTO macadam.job (sha256, suffix, bytes)"
+        " SELECT * FROM unnest($1::text[], $2::text[], $3::bigint[]) AS log (sha256) ORDER BY 1"
+        " ON CONFLICT (sha256) DO UPDATE SET submissions = job.submissions + 1"
+        " RETURNING sha256, submissions",
+        {hashes_of(logs),
+         array_of(logs, [](const Job& log) { return log.suffix; }),
+         array_of(logs, [](const Job& log) { return log.bytes; })});
+    for (const auto& row : rows) {
+        submissions[row[0].value_or("")] = number_in(row[1]);
+    }
+    server.rows("UPDATE macadam.job SET state = 'queued', attempts = 0, reason = '',"
+                " not_before = now(), worker = NULL, finished_at = NULL, has_object = true"
+                " WHERE sha256 = ANY($1) AND state IN ('outside', 'refused', 'parked')",
+                {hashes_of(logs)});
+    one.commit();
+    std::vector<Submission> results;
+    for (const auto& log : logs) {
+        const auto found = before.find(log.sha256);
+        results.push_back(found != before.end() && is_tried_again(found->second)
+                              ? Submission::requeued
+                          : submissions[log.sha256] == 1 ? Submission::added
+                                                         : Submission::known);
+    }
+    return results;
+}
+
+std::vector<Job> take_jobs(ServerConnection& server,
+                           const JobTaker& taker,
+                           std::size_t at_most,
+                           bool first_retries) {
+    park_dead(server);
+    constexpr std::size_t alone = 1;
+    for (const bool is_retry : {first_retries, !first_retries}) {
+        auto taken =
+            is_retry ? take(server, taker, alone, "true") : take(server, taker, at_most, "false");
+        if (!taken.empty()) {
+            return taken;
+        }
+    }
+    return {};
+}
+
+std::size_t
+finish_jobs(ServerConnection& server, const JobTaker& taker, std::span<const JobEnd> ends) {
+    ServerTransaction one{server};
+    std::size_t count = 0;
+    for (const auto& end : ends) {
+        auto values = ours(taker, end.job);
+        values.insert(values.end(),
+                      {std::string{name_of(end.state)}, end.reason, std::to_string(end.passes)});
+        count += server
+                     .rows(std::string{"UPDATE macadam.job SET state = $4, reason = $5,"
+                                       " passes = $6, finished_at = now(), lease_until = NULL"} +
+                               is_ours + " RETURNING 1",
+                           values)
+                     .size();
+    }
+    one.commit();
+    return count;
+}
+
+void fail_job(ServerConnection& server,
+              const JobTaker& taker,
+              const Job& job,
+              const std::string& reason) {
+    auto values = ours(taker, job);
+    values.emplace_back(reason);
+    const bool is_last = job.attempts >= max_job_attempts;
+    // 2, 4, 8, 16 s and up to as much again, so that many do not come back at one moment.
+    server.rows(std::string{"UPDATE macadam.job SET lease_until = NULL, reason = $4, "} +
+                    (is_last ? "state = 'parked', finished_at = now()"
+                             : "state = 'queued', not_before = now() +"
+                               " (1 + random()) * 2 ^ attempts * interval '1 s'") +
+                    is_ours,
+                values);
+}
+
+void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job> jobs) {
+    for (const auto& job : jobs) {
+        server.rows(std::string{"UPDATE macadam.job SET state = 'queued', attempts = attempts - 1,"
+                                " lease_until = NULL"} +
+                        is_ours,
+                    ours(taker, job));
+    }
+}
+
+std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit) {
+    return jobs_in(server.rows(fmt::format("SELECT {} FROM macadam.job WHERE has_object"
+                                           " AND state IN ('imported', 'known')"
+                                           " ORDER BY number LIMIT $1",
+                                           job_columns),
+                               {std::to_string(limit)}));
+}
+
+void note_erased(ServerConnection& server, std::span<const Job> jobs) {
+    server.rows("UPDATE macadam.job SET has_object = false WHERE sha256 = ANY($1)"
+                " AND state IN ('imported', 'known')",
+                {hashes_of(jobs)});
+}
+
+} // namespace macadam

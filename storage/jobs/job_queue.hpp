@@ -1,0 +1,90 @@
+#pragma once
+
+#include "storage/postgres/server_connection.hpp"
+#include "storage/uploads/upload_state.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+// Queue of trip logs on a server, for workers on any machine: table macadam.job. The clock is the
+// server's alone.
+
+/// Log, or archive of logs, that was submitted. Its bytes are in an object store.
+struct Job {
+    std::string sha256; ///< of the bytes
+    std::string suffix; ///< of the file, by which the format is known: ".trip.csv"
+    std::int64_t bytes = 0;
+    int attempts = 0; ///< times that a worker has begun it
+};
+
+/// Attempts after which a job is parked.
+inline constexpr int max_job_attempts = 5;
+
+enum class Submission : std::uint8_t {
+    added,    ///< new
+    requeued, ///< had been refused, parked or outside the map: tried again
+    known     ///< waits, or is done
+};
+
+/// State of each log that is known.
+std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
+                                                       std::span<const Job> logs);
+
+/// Queues logs whose objects are stored, in one transaction. A standby has them, too, when this
+/// returns, also those that are known.
+/// \param logs  without repetitions
+/// \returns for each what it was.
+///
+/// \throws InputError  also if the commit is in doubt: then submit them again.
+std::vector<Submission> submit_logs(ServerConnection& server, std::span<const Job> logs);
+
+/// Who takes jobs.
+struct JobTaker {
+    std::string worker; ///< its name
+    std::chrono::seconds lease{60};
+};
+
+/// Takes jobs that wait, or whose worker is dead, in a transaction of its own: their attempts count
+/// even if the caller is killed at once. Jobs that were begun before are taken one at a time, as
+/// they may have ended their worker. Those that were begun five times are parked.
+///
+/// \param first_retries  takes a job that was begun before, if one is due, before new ones
+std::vector<Job>
+take_jobs(ServerConnection& server, const JobTaker& taker, std::size_t at_most, bool first_retries);
+
+/// What became of a job.
+struct JobEnd {
+    Job job;
+    UploadState state = UploadState::imported;
+    std::string reason{};
+    std::int64_t passes = 0;
+};
+
+/// Records ends, in one transaction. Those of jobs that another worker has taken meanwhile are left
+/// to it. \returns the number recorded.
+std::size_t
+finish_jobs(ServerConnection& server, const JobTaker& taker, std::span<const JobEnd> ends);
+
+/// Gives a job back that failed for a reason that may pass: for a later attempt or, after the
+/// fifth, parked.
+void fail_job(ServerConnection& server,
+              const JobTaker& taker,
+              const Job& job,
+              const std::string& reason);
+
+/// Gives jobs back that were not tried: these attempts do not count.
+void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job> jobs);
+
+/// Jobs that are done and whose objects are still stored, at most `limit`.
+std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit);
+/// Notes that their objects are gone.
+void note_erased(ServerConnection& server, std::span<const Job> jobs);
+
+} // namespace macadam

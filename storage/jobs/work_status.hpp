@@ -1,0 +1,47 @@
+#pragma once
+
+#include "storage/postgres/server_connection.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Worker, as the queue sees it.
+struct WorkerStatus {
+    std::string name;
+    bool is_alive = false;
+    std::int64_t jobs = 0;     ///< trips at the same time
+    std::int64_t working = 0;  ///< logs that it has taken
+    std::int64_t finished = 0; ///< logs
+    double seen_s = 0;         ///< since its last sign
+};
+
+/// Log that was parked or refused.
+struct FailedLog {
+    std::string sha256;
+    std::string state;
+    std::string reason;
+    std::int64_t attempts = 0;
+    std::int64_t finished_ms = 0; ///< ms since 1970 UTC
+};
+
+/// State of the queue of a database at one moment.
+struct WorkStatus {
+    std::map<std::string, std::int64_t> logs; ///< by state, all of them
+    double oldest_s = 0;                      ///< since the submission of the oldest log that waits
+    std::int64_t finished_in_minute = 0, finished_in_hour = 0; ///< logs
+    std::int64_t passes_in_hour = 0;
+    std::int64_t chunks_to_fuse = 0;
+    std::optional<std::string> objects; ///< location of the object store
+    std::vector<WorkerStatus> workers;
+    std::vector<FailedLog> failed; ///< the latest parked, then the latest refused
+};
+
+/// \param max_failed  length of WorkStatus::failed
+WorkStatus work_status(ServerConnection& server, std::size_t max_failed);
+
+} // namespace macadam

@@ -1,0 +1,92 @@
+#include "storage/jobs/worker_register.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <random>
+
+#include <unistd.h>
+
+namespace macadam {
+namespace {
+
+std::optional<std::string> setting(ServerConnection& server, const std::string& key) {
+    const auto rows = server.rows("SELECT value FROM macadam.work_setting WHERE key = $1", {key});
+    return rows.empty() ? std::nullopt : rows[0][0];
+}
+
+void put_setting(ServerConnection& server, const std::string& key, const std::string& value) {
+    server.rows("INSERT INTO macadam.work_setting VALUES ($1, $2)"
+                " ON CONFLICT (key) DO UPDATE SET value = excluded.value",
+                {key, value});
+}
+
+std::string lease_of(const JobTaker& taker) {
+    return std::to_string(taker.lease.count());
+}
+
+constexpr const char* version_key = "results_version";
+constexpr const char* objects_key = "objects";
+
+} // namespace
+
+std::string new_worker_name() {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) {
+        host[0] = '?';
+    }
+    return fmt::format("{}/{}/{:08x}", host.data(), ::getpid(), std::random_device{}());
+}
+
+void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes_over) {
+    const auto ours = std::to_string(entry.results_version);
+    ServerTransaction one{server};
+    server.run("LOCK TABLE macadam.work_setting IN SHARE ROW EXCLUSIVE MODE"); // one at a time
+    const auto theirs = setting(server, version_key);
+    const auto others = server.number(
+        "SELECT count(*) FROM macadam.worker WHERE seen_at > now() - lease_s * interval '1 s'");
+    if (theirs && *theirs != ours && (!takes_over || others > 0)) {
+        throw InputError{fmt::format(
+            "{}: its workers compute results of version {}, this program those of version {}: "
+            "values of both must not mix; {}",
+            server.address(),
+            *theirs,
+            ours,
+            others > 0 ? fmt::format("{} still at work, expected the same program on all machines",
+                                     others == 1 ? "one is" : fmt::format("{} are", others))
+                       : "install the same program on all machines, or let this one decide with "
+                         "--take-over")};
+    }
+    put_setting(server, version_key, ours);
+    server.run("DELETE FROM macadam.worker WHERE seen_at < now() - interval '1 day'");
+    server.rows("INSERT INTO macadam.worker (name, results_version, jobs, lease_s)"
+                " VALUES ($1, $2, $3, $4)",
+                {entry.taker.worker, ours, std::to_string(entry.jobs), lease_of(entry.taker)});
+    one.commit();
+}
+
+void renew_worker(ServerConnection& server, const JobTaker& taker, std::int64_t finished) {
+    server.rows("UPDATE macadam.job SET lease_until = now() + $2::interval"
+                " WHERE worker = $1 AND state = 'working'",
+                {taker.worker, lease_of(taker) + " s"});
+    server.rows("UPDATE macadam.worker SET seen_at = now(), finished = $2 WHERE name = $1",
+                {taker.worker, std::to_string(finished)});
+}
+
+void end_worker(ServerConnection& server, const std::string& name) {
+    server.rows("DELETE FROM macadam.worker WHERE name = $1", {name});
+}
+
+std::optional<std::string> objects_location(ServerConnection& server) {
+    return setting(server, objects_key);
+}
+
+void put_objects_location(ServerConnection& server, const std::string& location) {
+    if (setting(server, objects_key) != location) {
+        put_setting(server, objects_key, location);
+    }
+}
+
+} // namespace macadam

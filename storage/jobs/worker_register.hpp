@@ -1,0 +1,39 @@
+#pragma once
+
+#include "storage/jobs/job_queue.hpp"
+#include "storage/postgres/server_connection.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace macadam {
+
+/// Worker as others see it: table macadam.worker.
+struct WorkerEntry {
+    JobTaker taker;
+    int results_version = 0; ///< see app/pipeline/results_version.hpp
+    std::size_t jobs = 1;    ///< trips at the same time
+};
+
+/// Name for a worker that begins: machine, process and a random number.
+std::string new_worker_name();
+
+/// Registers a worker. The first one decides with which version of results this database is filled;
+/// `takes_over` changes that while no other worker lives.
+///
+/// \throws InputError  if workers of another version of results fill the database.
+void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes_over);
+
+/// Tells that a worker lives, and renews the leases of its jobs.
+/// \param finished  jobs that it has finished
+void renew_worker(ServerConnection& server, const JobTaker& taker, std::int64_t finished);
+
+/// Removes a worker that ends.
+void end_worker(ServerConnection& server, const std::string& name);
+
+/// Location of the object store, as it was submitted to last; `std::nullopt` before that.
+std::optional<std::string> objects_location(ServerConnection& server);
+void put_objects_location(ServerConnection& server, const std::string& location);
+
+} // namespace macadam

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// Trip log, or archive of logs, as an object: its name is the SHA-256 of its bytes.
+struct LogObject {
+    std::string sha256; ///< 64 lower-case hex digits
+    std::int64_t bytes = 0;
+};
+
+/// Store from which workers on other machines fetch trip logs: a folder, or a bucket of an
+/// S3-compatible service. Used by one thread at a time.
+///
+/// \throws InputError  from every call that fails; the message names the store and the cause.
+class ObjectStore {
+public:
+    ObjectStore() = default;
+    ObjectStore(const ObjectStore&) = delete;
+    ObjectStore& operator=(const ObjectStore&) = delete;
+    virtual ~ObjectStore() = default;
+
+    /// Stores the bytes of a file, also over an object that is there. When this returns, the object
+    /// is whole and durable.
+    ///
+    /// \throws InputError  also if the bytes are not those of `object`; then nothing is stored.
+    virtual void put(const LogObject& object, const std::filesystem::path& file) = 0;
+
+    /// Writes an object to a new file, at most `object.bytes` of it.
+    ///
+    /// \throws InputError  also if it is missing or its bytes are others; then no file is left.
+    virtual void fetch(const LogObject& object, const std::filesystem::path& file) = 0;
+
+    /// Removes an object, if it is there.
+    virtual void remove(std::string_view sha256) = 0;
+};
+
+/// Opens the store of `s3://BUCKET[/PREFIX]` or of a folder, which is made if it is missing.
+///
+/// \param stop  ends waiting for a service
+/// \throws InputError  for another kind of address, or without credentials for a bucket.
+std::unique_ptr<ObjectStore> open_object_store(const std::string& location,
+                                               std::stop_token stop = {});
+
+/// Returns the location as workers started in other folders find it: a folder's absolute path.
+std::string absolute_location(const std::string& location);
+
+} // namespace macadam

@@ -1,0 +1,279 @@
+// The queue of trips on a real PostgreSQL server.
+
+#include "storage/jobs/job_queue.hpp"
+
+#include "storage/jobs/work_status.hpp"
+#include "storage/jobs/worker_register.hpp"
+#include "storage/store/server/server_schema.hpp"
+#include "support/files/files.hpp"
+#include "support/program/postgres_server.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::PostgresServer;
+using testing::refusal_of;
+using ::testing::SizeIs;
+
+std::vector<Job> logs(int count) {
+    std::vector<Job> made;
+    for (int i = 0; i < count; ++i) {
+        made.push_back(
+            {.sha256 = fmt::format("{:064x}", i), .suffix = ".trip.csv", .bytes = 1000 + i});
+    }
+    return made;
+}
+
+std::vector<std::string> hashes(const std::vector<Job>& jobs) {
+    std::vector<std::string> found;
+    for (const auto& job : jobs) {
+        found.push_back(job.sha256);
+    }
+    std::ranges::sort(found);
+    return found;
+}
+
+const JobTaker anna{"anna", 60s};
+const JobTaker ben{"ben", 60s};
+
+class JobQueue : public ::testing::Test {
+protected:
+    void SetUp() override {
+        address_ = server_.new_database("roads");
+        connection_.emplace(address_);
+        ServerTransaction one{*connection_};
+        create_server_schema(*connection_);
+        one.commit();
+    }
+
+    ServerConnection& queue() { return *connection_; }
+
+    /// Lets the leases of a worker run out, as time would.
+    void kill(const JobTaker& taker) {
+        queue().rows("UPDATE macadam.job SET lease_until = now() - interval '1 s'"
+                     " WHERE worker = $1 AND state = 'working'",
+                     {taker.worker});
+    }
+    void let_pauses_pass() { queue().run("UPDATE macadam.job SET not_before = now()"); }
+
+    std::string reason_of(const Job& job) {
+        return queue()
+            .rows("SELECT reason FROM macadam.job WHERE sha256 = $1", {job.sha256})
+            .at(0)[0]
+            .value_or("NULL");
+    }
+
+    PostgresServer server_;
+    std::string address_;
+    std::optional<ServerConnection> connection_;
+};
+
+TEST_F(JobQueue, TakesEachLogOnce) {
+    using enum Submission;
+    const auto three = logs(3);
+    EXPECT_THAT(submit_logs(queue(), three), ElementsAre(added, added, added));
+    EXPECT_THAT(submit_logs(queue(), logs(4)), ElementsAre(known, known, known, added));
+    EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(4));
+    EXPECT_THAT(submit_logs(queue(), three), Each(known));
+    EXPECT_THAT(take_jobs(queue(), ben, 10, false), IsEmpty());
+}
+
+TEST_F(JobQueue, GivesAJobToOneOfManyWhoAskAtOnce) {
+    submit_logs(queue(), logs(200));
+    std::vector<std::vector<Job>> taken(4);
+    {
+        std::vector<std::jthread> threads;
+        for (auto& mine : taken) {
+            threads.emplace_back([this, &mine] {
+                ServerConnection own{address_};
+                for (std::vector<Job> some; !(some = take_jobs(own, anna, 3, false)).empty();) {
+                    mine.insert(mine.end(), some.begin(), some.end());
+                }
+            });
+        }
+    }
+    std::vector<Job> all;
+    for (const auto& mine : taken) {
+        all.insert(all.end(), mine.begin(), mine.end());
+    }
+    EXPECT_EQ(hashes(all), hashes(logs(200)));
+}
+
+TEST_F(JobQueue, TakesAJobFromADeadWorkerAndLeavesItsLateEndAlone) {
+    submit_logs(queue(), logs(1));
+    const auto first = take_jobs(queue(), anna, 10, false);
+    ASSERT_THAT(first, SizeIs(1));
+    EXPECT_EQ(first[0].attempts, 1);
+    EXPECT_THAT(take_jobs(queue(), ben, 10, true), IsEmpty()); // anna lives
+    kill(anna);
+    const auto second = take_jobs(queue(), ben, 10, false);
+    ASSERT_THAT(second, SizeIs(1));
+    EXPECT_EQ(second[0].attempts, 2);
+    EXPECT_EQ(finish_jobs(queue(), anna, std::vector{JobEnd{.job = first[0]}}), 0U);
+    EXPECT_EQ(finish_jobs(queue(), ben, std::vector{JobEnd{.job = second[0], .passes = 7}}), 1U);
+    EXPECT_EQ(work_status(queue(), 1).logs.at("imported"), 1);
+    EXPECT_EQ(work_status(queue(), 1).passes_in_hour, 7);
+}
+
+TEST_F(JobQueue, RenewsTheLeasesOfAWorkerThatLives) {
+    submit_logs(queue(), logs(1));
+    begin_worker(queue(), {.taker = anna, .results_version = 1}, false);
+    take_jobs(queue(), anna, 10, false);
+    kill(anna);
+    renew_worker(queue(), anna, 5);
+    EXPECT_THAT(take_jobs(queue(), ben, 10, true), IsEmpty());
+    const auto status = work_status(queue(), 1);
+    ASSERT_THAT(status.workers, SizeIs(1));
+    EXPECT_EQ(status.workers[0].finished, 5);
+    EXPECT_EQ(status.workers[0].working, 1);
+    end_worker(queue(), "anna");
+    EXPECT_THAT(work_status(queue(), 1).workers, IsEmpty());
+}
+
+TEST_F(JobQueue, ParksAJobAtWhichFiveWorkersEnded) {
+    submit_logs(queue(), logs(3));
+    EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(3));
+    for (int attempt = 2; attempt <= max_job_attempts; ++attempt) {
+        kill(anna);
+        for (int i = 0; i < 3; ++i) { // each alone, since one of them ends its worker
+            const auto taken = take_jobs(queue(), anna, 10, false);
+            ASSERT_THAT(taken, SizeIs(1));
+            EXPECT_EQ(taken[0].attempts, attempt);
+        }
+    }
+    kill(anna);
+    EXPECT_THAT(take_jobs(queue(), anna, 10, false), IsEmpty());
+    const auto status = work_status(queue(), 2);
+    EXPECT_EQ(status.logs.at("parked"), 3);
+    ASSERT_THAT(status.failed, SizeIs(2));
+    EXPECT_EQ(status.failed[0].reason, "its worker ended 5 times at this log");
+}
+
+TEST_F(JobQueue, TriesAFailedJobAgainAfterAPauseAndParksItWithItsReason) {
+    submit_logs(queue(), logs(1));
+    for (int attempt = 1; attempt <= max_job_attempts; ++attempt) {
+        const auto taken = take_jobs(queue(), anna, 10, false);
+        ASSERT_THAT(taken, SizeIs(1)) << attempt;
+        fail_job(queue(), anna, taken[0], "the object is missing");
+        EXPECT_THAT(take_jobs(queue(), anna, 10, true), IsEmpty()) << attempt; // not at once
+        let_pauses_pass();
+    }
+    const auto status = work_status(queue(), 5);
+    EXPECT_EQ(status.logs.at("parked"), 1);
+    EXPECT_EQ(status.oldest_s, 0);
+    EXPECT_EQ(reason_of(logs(1)[0]), "the object is missing");
+    EXPECT_THAT(submit_logs(queue(), logs(1)), ElementsAre(Submission::requeued));
+    EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(1));
+}
+
+TEST_F(JobQueue, DoesNotCountAttemptsThatWereNotMade) {
+    submit_logs(queue(), logs(2));
+    const auto taken = take_jobs(queue(), anna, 10, false);
+    put_back_jobs(queue(), anna, taken);
+    const auto again = take_jobs(queue(), ben, 10, false);
+    ASSERT_THAT(again, SizeIs(2)); // both at once: neither was begun
+    EXPECT_EQ(again[0].attempts, 1);
+}
+
+TEST_F(JobQueue, LetsRetriesWaitBehindNewLogsButNotForEver) {
+    submit_logs(queue(), logs(1));
+    fail_job(queue(), anna, take_jobs(queue(), anna, 1, false).at(0), "busy");
+    let_pauses_pass();
+    submit_logs(queue(), logs(3));
+    EXPECT_THAT(take_jobs(queue(), anna, 1, false).at(0).attempts, 1);
+    EXPECT_THAT(take_jobs(queue(), anna, 1, true).at(0).attempts, 2);
+}
+
+TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
+    submit_logs(queue(), logs(2));
+    const auto taken = take_jobs(queue(), anna, 10, false);
+    ASSERT_THAT(taken, SizeIs(2));
+    finish_jobs(
+        queue(),
+        anna,
+        std::vector{JobEnd{.job = taken[0]},
+                    JobEnd{.job = taken[1], .state = UploadState::refused, .reason = "junk"}});
+    const auto done = jobs_to_erase(queue(), 10);
+    ASSERT_THAT(done, SizeIs(1)); // a refused log is kept for those who ask why
+    EXPECT_EQ(done[0].sha256, taken[0].sha256);
+    note_erased(queue(), done);
+    EXPECT_THAT(jobs_to_erase(queue(), 10), IsEmpty());
+}
+
+TEST_F(JobQueue, RefusesWorkersOfOtherResults) {
+    begin_worker(queue(), {.taker = anna, .results_version = 1}, false);
+    begin_worker(queue(), {.taker = ben, .results_version = 1}, false);
+    const WorkerEntry other{.taker = {"carl", 60s}, .results_version = 2};
+    EXPECT_THAT(refusal_of([&] { begin_worker(queue(), other, true); }),
+                AllOf(HasSubstr("compute results of version 1, this program those of version 2"),
+                      HasSubstr("2 are still at work")));
+    end_worker(queue(), "anna");
+    end_worker(queue(), "ben");
+    EXPECT_THAT(refusal_of([&] { begin_worker(queue(), other, false); }),
+                HasSubstr("or let this one decide with --take-over"));
+    begin_worker(queue(), other, true);
+    EXPECT_THAT(
+        refusal_of([&] { begin_worker(queue(), {.taker = anna, .results_version = 1}, false); }),
+        HasSubstr("one is still at work"));
+}
+
+TEST_F(JobQueue, IsForImportersAndOperatorsAlone) {
+    ServerConnection boss{server_.address("roads")};
+    boss.run("DROP SCHEMA macadam CASCADE");
+    {
+        ServerTransaction one{boss};
+        create_server_schema(boss);
+        one.commit();
+    }
+    boss.run("CREATE ROLE guest LOGIN IN ROLE macadam_reader; CREATE ROLE driver LOGIN IN ROLE"
+             " macadam_importer");
+    ServerConnection guest{server_.address("roads", "guest")};
+    EXPECT_THAT(refusal_of([&] { work_status(guest, 1); }), HasSubstr("permission denied"));
+    ServerConnection driver{server_.address("roads", "driver")};
+    submit_logs(driver, logs(2));
+    begin_worker(driver, {.taker = anna, .results_version = 1}, false);
+    EXPECT_THAT(take_jobs(driver, anna, 10, false), SizeIs(2));
+}
+
+TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
+    queue().run("DROP TABLE macadam.job, macadam.worker, macadam.work_setting;"
+                " DELETE FROM macadam.migration WHERE number > 1");
+    EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
+                AllOf(HasSubstr("its schema is of version 1, expected 2"),
+                      HasSubstr("macadam upgrade postgresql://")));
+    EXPECT_EQ(upgrade_server_schema(queue()), 1);
+    EXPECT_EQ(upgrade_server_schema(queue()), 2);
+    expect_server_schema(queue());
+    EXPECT_THAT(submit_logs(queue(), logs(1)), SizeIs(1));
+}
+
+TEST_F(JobQueue, IsSearchedByItsIndexes) {
+    submit_logs(queue(), logs(500));
+    queue().run("UPDATE macadam.job SET state = 'imported', finished_at = now() - interval '1 day'"
+                " WHERE number > 20; ANALYZE macadam.job");
+    std::string plan;
+    for (const auto& row : queue().rows(
+             "EXPLAIN SELECT sha256 FROM macadam.job WHERE state IN ('queued', 'working')"
+             " AND (attempts > 0) = false ORDER BY number LIMIT 20 FOR UPDATE SKIP LOCKED")) {
+        plan += row[0].value_or("") + "\n";
+    }
+    EXPECT_THAT(plan, HasSubstr("job_to_do")) << plan;
+}
+
+} // namespace
+} // namespace macadam
