@@ -5,6 +5,7 @@
 #include "storage/jobs/work_status.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/utc.hpp"
+#include "storage/uploads/upload_state.hpp"
 
 #include <fmt/format.h>
 
@@ -57,8 +58,9 @@ std::string lag_text(double seconds) {
 
 std::string text_of(const WorkStatus& status) {
     std::string text;
-    for (const auto& [name, count] : status.logs) {
-        text += fmt::format("{:<9} {:>9}\n", name, count);
+    for (const auto state : all_upload_states) {
+        const auto name = std::string{name_of(state)};
+        text += fmt::format("{:<9} {:>9}\n", name, status.logs.at(name));
     }
     text += fmt::format("\noldest waits for {}; {} finished in the last minute, {} in the last "
                         "hour ({} passes); {} to be fused\n",

@@ -1,9 +1,13 @@
 #include "app/cli/server_commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/import/trip_options.hpp"
 #include "app/import/trip_report_output.hpp"
+#include "app/jobs/job_options.hpp"
+#include "app/jobs/job_worker.hpp"
 #include "app/uploads/upload_workers.hpp"
+#include "storage/objects/object_store.hpp"
+#include "storage/postgres/server_address.hpp"
 #include "storage/uploads/upload_database.hpp"
 #include "storage/uploads/upload_queue.hpp"
 
@@ -11,6 +15,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -30,9 +35,44 @@ std::vector<std::string> words_of(const Arguments& arguments) {
     return words;
 }
 
+constexpr std::int64_t default_lease_s = 60;
+
+/// Works out the queue of a database on a server.
+void run_job_worker(const std::string& address,
+                    const Arguments& arguments,
+                    const Console& console) {
+    constexpr std::int64_t max_lease_s = 3600;
+    const auto lease_s = arguments.integer("--lease").value_or(default_lease_s);
+    if (lease_s < 1 || lease_s > max_lease_s) {
+        throw UsageError{fmt::format("--lease is {}, expected 1 to {} s", lease_s, max_lease_s)};
+    }
+    const auto objects = arguments.value("--objects");
+    console.say("working; Ctrl-C ends");
+    work_out_jobs({.address = address,
+                   .objects = objects ? absolute_location(*objects) : std::string{},
+                   .import_arguments = upload_arguments(words_of(arguments)),
+                   .lease = std::chrono::seconds{lease_s},
+                   .until_empty = arguments.flag("--once"),
+                   .keeps_logs = arguments.flag("--keep-logs"),
+                   .takes_over = arguments.flag("--take-over"),
+                   .tell = [&, json = arguments.flag("--json")](
+                               const TripReport& trip) { print_report(trip, json, console); }},
+                  console);
+}
+
 void run_worker(const Arguments& arguments, const Console& console) {
     using namespace std::chrono_literals;
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
+    if (is_server_address(file.string())) {
+        run_job_worker(file.string(), arguments, console);
+        return;
+    }
+    for (const std::string name : {"--objects", "--keep-logs", "--lease", "--take-over"}) {
+        if (arguments.is_given(name)) {
+            throw UsageError{
+                fmt::format("{} is for a database on a server, but STORE is a file", name)};
+        }
+    }
     static_cast<void>(opened_store(file, console)); // refuses other files
     make_uploads_folder(file);
     std::mutex printing;
@@ -56,11 +96,22 @@ void run_worker(const Arguments& arguments, const Console& console) {
     }
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{import_operand};
 constexpr std::array options{
     vehicles_option,
     method_option,
     jobs_option,
+    in_group("server", objects_option),
+    in_group("server",
+             {"--keep-logs", "", "Leave logs in the object store once they are imported."}),
+    rare(in_group("server",
+                  {"--lease",
+                   "SECONDS",
+                   "After this time without a sign of a worker, others take its logs.",
+                   "60"})),
+    rare(in_group(
+        "server",
+        {"--take-over", "", "Compute with this program's version of results from now on."})),
     Option{"--once", "", "End when nothing waits."},
     Option{"--json", "", "One JSON object per trip on standard output, one per line."}};
 
@@ -68,14 +119,18 @@ constexpr std::array options{
 
 const Command worker_command{
     .name = "worker",
-    .summary = "Import the trips that a server has received, until stopped",
-    .about = "Takes uploads of 'macadam serve' from the queue beside the database, imports them as "
-             "'macadam import' does, and\n"
-             "erases the logs; deletes the trips that contributors delete. Several workers share "
-             "the queue. A server has one of\n"
-             "its own, unless --workers 0 is given.",
+    .summary = "Import the trips that wait: uploads, or those that were submitted",
+    .about = "Beside a file: takes uploads of 'macadam serve' from the queue, imports them as "
+             "'macadam import' does, erases the\n"
+             "logs, and deletes the trips that contributors delete. A server has a worker of "
+             "its own, unless --workers 0 is given.\n"
+             "For postgresql://...: takes logs of 'macadam submit', on any number of machines. "
+             "Each log counts once, whatever is\n"
+             "killed; one at which its worker ended, or that could not be fetched, is tried five "
+             "times ('macadam status').",
     .example = "  macadam worker roads.gpkg --vehicles cars/\n"
-               "  macadam worker roads.gpkg --once",
+               "  macadam worker roads.gpkg --once\n"
+               "  macadam worker postgresql://me@db.example.org/roads --jobs 4",
     .operands = operands,
     .options = options,
     .run = run_worker,

@@ -3,6 +3,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/import/import_run.hpp"
 #include "app/import/trip_options.hpp"
+#include "app/jobs/log_outcome.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/store/road_store.hpp"
 #include "storage/uploads/upload_database.hpp"
@@ -33,42 +34,13 @@ using Result = TripReport::Result;
 constexpr std::size_t batch_size = 20;
 constexpr int max_attempts = 50; // by UploadWork::running_since, in three hours at least
 
-/// What an import said of the trips of one upload.
-struct Reports {
-    std::size_t imported = 0, known = 0, outside = 0, rejected = 0;
-    std::string reason; ///< the first one
-};
-
-/// Replaces the path of a log, which is the server's own matter.
-std::string without_path(std::string text, const fs::path& file, const Upload& upload) {
-    const auto path = file.string();
-    const auto name = "log" + upload.suffix;
-    for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
-        text.replace(at, path.size(), name);
-        at += name.size();
-    }
-    return text;
-}
-
-/// Tests whether a report is of a file, or of a member of an archive.
-bool is_of(const TripReport& report, const std::string& file) {
-    return report.file.starts_with(file) &&
-           (report.file.size() == file.size() || report.file[file.size()] == '/');
-}
-
-void add(Reports& reports, const std::string& reason) {
-    if (reports.reason.empty()) {
-        reports.reason = reason;
-    }
-}
-
 /// Notes what became of one trip of an upload.
 void note(Database& uploads,
           const std::function<bool(const std::string&)>& is_stored,
           const TakenUpload& taken,
           const TripReport& report,
           const fs::path& file,
-          Reports& reports) {
+          LogOutcome& outcome) {
     const auto& upload = taken.upload();
     // A trip that is stored, after an attempt that a kill ended, and of which nobody else says that
     // it is his, was imported by that attempt.
@@ -76,40 +48,10 @@ void note(Database& uploads,
         report.result == Result::known && (is_trip_of(uploads, upload, report.sha256) ||
                                            (upload.attempts > 1 && is_stored(report.sha256) &&
                                             !is_trip_of_any(uploads, report.sha256)));
+    add(outcome, report, file, is_our_own);
     if (report.result == Result::imported || is_our_own) {
-        ++reports.imported;
         add_trip_of(uploads, upload, report.sha256, static_cast<std::int64_t>(report.passes));
-    } else if (report.result == Result::known) {
-        ++reports.known;
-        const auto why = std::ranges::find_if(report.warnings, [](const std::string& warning) {
-            return warning.starts_with("was "); // permanently deleted; others are notes on values
-        });
-        add(reports, why == report.warnings.end() ? "already imported" : *why);
-    } else if (report.result == Result::outside) {
-        ++reports.outside;
-        add(reports, "touches no road of this map, not stored");
-    } else {
-        ++reports.rejected;
-        add(reports, without_path(report.error, file, upload));
     }
-}
-
-UploadState state_of(const Reports& reports) {
-    return reports.imported > 0   ? UploadState::imported
-           : reports.known > 0    ? UploadState::known
-           : reports.rejected > 0 ? UploadState::refused
-           : reports.outside > 0  ? UploadState::outside
-                                  : UploadState::refused;
-}
-
-void finish(Database& uploads, const fs::path& spool, const Upload& upload, Reports reports) {
-    const auto state = state_of(reports);
-    if (state == UploadState::refused) {
-        add(reports, "no trip log was found");
-    }
-    const bool is_partial = reports.imported > 0 && reports.rejected > 0;
-    const auto reason = state == UploadState::imported && !is_partial ? "" : reports.reason;
-    finish_upload(uploads, spool, upload, state, reason);
 }
 
 /// Returns how often a log may have been begun that is tried now.
@@ -137,7 +79,7 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
         return true;
     }
     std::vector<fs::path> files;
-    std::vector<Reports> reports(taken.size());
+    std::vector<LogOutcome> outcomes(taken.size());
     for (const auto& one : taken) {
         files.push_back(one.upload().file_in(spool));
     }
@@ -151,8 +93,8 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
         };
         options.tell = [&](const TripReport& report) {
             for (std::size_t i = 0; i < taken.size(); ++i) {
-                if (is_of(report, files[i].string())) {
-                    note(uploads, is_stored, taken[i], report, files[i], reports[i]);
+                if (is_of(report, files[i])) {
+                    note(uploads, is_stored, taken[i], report, files[i], outcomes[i]);
                 }
             }
             if (work.tell) {
@@ -168,7 +110,8 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
         throw;
     }
     for (std::size_t i = 0; i < taken.size(); ++i) {
-        finish(uploads, spool, taken[i].upload(), reports[i]);
+        const auto fate = fate_of(outcomes[i]);
+        finish_upload(uploads, spool, taken[i].upload(), fate.state, fate.reason);
     }
     return true;
 }

@@ -84,9 +84,21 @@ std::optional<std::string> objects_location(ServerConnection& server) {
 }
 
 void put_objects_location(ServerConnection& server, const std::string& location) {
-    if (setting(server, objects_key) != location) {
-        put_setting(server, objects_key, location);
+    const auto last = objects_location(server);
+    if (last == location) {
+        return;
     }
+    const auto waiting =
+        server.number("SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')");
+    if (last && waiting > 0) {
+        throw InputError{fmt::format("{}: {} in {}, where workers look for all logs; submit to it, "
+                                     "or wait until nothing waits",
+                                     server.address(),
+                                     waiting == 1 ? std::string{"a log waits"}
+                                                  : fmt::format("{} logs wait", waiting),
+                                     *last)};
+    }
+    put_setting(server, objects_key, location);
 }
 
 } // namespace macadam

@@ -34,6 +34,7 @@ void end_worker(ServerConnection& server, const std::string& name);
 
 /// Location of the object store, as it was submitted to last; `std::nullopt` before that.
 std::optional<std::string> objects_location(ServerConnection& server);
+/// \throws InputError  if it differs from the last one, where logs still wait.
 void put_objects_location(ServerConnection& server, const std::string& location);
 
 } // namespace macadam

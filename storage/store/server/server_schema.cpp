@@ -1,7 +1,7 @@
 #include "storage/store/server/server_schema.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/store/server/job_schema.hpp"
+#include "storage/jobs/job_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
 #include "storage/styles/road_style.hpp"
 

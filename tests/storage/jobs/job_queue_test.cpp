@@ -215,6 +215,17 @@ TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
     EXPECT_THAT(jobs_to_erase(queue(), 10), IsEmpty());
 }
 
+TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
+    EXPECT_FALSE(objects_location(queue()).has_value());
+    put_objects_location(queue(), "/srv/a");
+    put_objects_location(queue(), "/srv/b");
+    submit_logs(queue(), logs(1));
+    put_objects_location(queue(), "/srv/b");
+    EXPECT_THAT(refusal_of([&] { put_objects_location(queue(), "/srv/a"); }),
+                HasSubstr("a log waits in /srv/b"));
+    EXPECT_EQ(objects_location(queue()), "/srv/b");
+}
+
 TEST_F(JobQueue, RefusesWorkersOfOtherResults) {
     begin_worker(queue(), {.taker = anna, .results_version = 1}, false);
     begin_worker(queue(), {.taker = ben, .results_version = 1}, false);

@@ -1,4 +1,5 @@
-// Trip logs in folders, and in buckets of a real service (npm's s3rver).
+// Trip logs in folders, and in buckets of a real service: npm's s3rver, which takes any signature
+// (those are held against examples of AWS, request_signature_test.cpp).
 
 #include "storage/objects/object_store.hpp"
 
@@ -25,7 +26,6 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using testing::fresh_folder;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::read_file;
 using testing::S3Service;
 using testing::write_file;
@@ -165,8 +165,6 @@ TEST(S3Objects, TellWhatAServiceSays) {
                 AllOf(HasSubstr("s3://roads/logs: cannot store an object: 127.0.0.1:"),
                       HasSubstr("answers 503, 'Please reduce your request rate.'")));
     EXPECT_THAT(put("s3://elsewhere"), HasSubstr("The specified bucket does not exist"));
-    setenv("AWS_SECRET_ACCESS_KEY", "wrong", 1);
-    EXPECT_THAT(put("s3://roads"), AllOf(HasSubstr("answers 403"), Not(HasSubstr("wrong"))));
 }
 
 TEST(S3Objects, AreCheckedByTheirHash) {

@@ -40,7 +40,7 @@ void expect_success(const fs::path& folder, const std::string& command) {
 
 } // namespace
 
-PostgresServer::PostgresServer() {
+PostgresServer::PostgresServer(std::chrono::seconds most) {
     std::string name = "/tmp/macadam-pg-XXXXXX"; // paths of sockets have at most 107 bytes
     if (mkdtemp(name.data()) == nullptr) {
         throw std::runtime_error{"cannot create " + name};
@@ -62,9 +62,10 @@ PostgresServer::PostgresServer() {
                                name));
     expect_success(
         folder_,
-        fmt::format("({} timeout -k 5 110 {}/postgres -D {}/data -c listen_addresses="
+        fmt::format("({} timeout -k 5 {} {}/postgres -D {}/data -c listen_addresses="
                     " -c unix_socket_directories={} -c fsync=off >/dev/null 2>&1 </dev/null &)",
                     run,
+                    most.count(),
                     programs,
                     name,
                     name));

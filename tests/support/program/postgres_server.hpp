@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -10,8 +11,10 @@ namespace macadam::testing {
 /// roads of its databases are kept there too, by the variables of the environment.
 class PostgresServer {
 public:
-    /// Starts it; \throws std::runtime_error  with what it says, if it does not start.
-    PostgresServer();
+    /// Starts it.
+    /// \param most  time after which it ends itself
+    /// \throws std::runtime_error  with what it says, if it does not start.
+    explicit PostgresServer(std::chrono::seconds most = std::chrono::seconds{110});
     PostgresServer(const PostgresServer&) = delete;
     PostgresServer& operator=(const PostgresServer&) = delete;
     ~PostgresServer();

@@ -1,4 +1,4 @@
-#include "storage/store/server/job_schema.hpp"
+#include "storage/jobs/job_schema.hpp"
 
 namespace macadam {
 

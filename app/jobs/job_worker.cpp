@@ -1,0 +1,268 @@
+#include "app/jobs/job_worker.hpp"
+
+#include "app/database/key_messages.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/import/import_run.hpp"
+#include "app/jobs/job_batch.hpp"
+#include "app/jobs/job_options.hpp"
+#include "app/jobs/worker_heartbeat.hpp"
+#include "app/pipeline/results_version.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/atomic/temporary_folder.hpp"
+#include "storage/jobs/worker_register.hpp"
+#include "storage/objects/object_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto look_every = 1s; // with jitter: a NOTIFY would make commits wait for each other
+constexpr auto after_trouble = 5s;
+constexpr auto fuse_at_age = 45s;
+constexpr std::size_t max_batch = 100;
+
+/// Folder for fetched logs; removes those that killed workers of this user left.
+fs::path swept_temporary_name() {
+    auto name = fs::temp_directory_path() / "macadam-worker";
+    for (const auto& leftover : leftovers_of(name)) {
+        std::error_code not_ours;
+        fs::remove_all(leftover.name, not_ours);
+    }
+    return name;
+}
+
+class JobWorker {
+public:
+    JobWorker(const JobWork& work, const Console& console)
+        : work_{work}, console_{console}, options_{parse_import(work.import_arguments)},
+          vehicles_{work.import_arguments}, taker_{new_worker_name(), work.lease},
+          folder_{swept_temporary_name()} {
+        options_.tell = work.tell;
+        connect();
+        begin_worker(*queue_,
+                     {.taker = taker_, .results_version = results_version, .jobs = options_.jobs},
+                     work.takes_over);
+        heartbeat_.emplace(work.address, taker_);
+    }
+
+    void run() {
+        while (!console_.stop().stop_requested()) {
+            try {
+                connect();
+                if (!work_batch() && !is_idle_done()) {
+                    pause(look_every);
+                } else if (is_done_) {
+                    break;
+                }
+                trouble_.clear();
+            } catch (const InputError& error) {
+                if (console_.stop().stop_requested()) {
+                    break;
+                }
+                if (work_.until_empty) {
+                    throw;
+                }
+                if (std::exchange(trouble_, error.what()) != error.what()) {
+                    console_.warn(error.what());
+                }
+                store_.reset(); // its network may have been replaced
+                queue_.reset();
+                pause(after_trouble);
+            }
+        }
+        end();
+    }
+
+private:
+    void connect() {
+        if (!queue_) {
+            queue_.emplace(opened_server(work_.address));
+        }
+        if (stores_.empty()) {
+            const auto location =
+                work_.objects.empty() ? objects_location(*queue_) : std::optional{work_.objects};
+            while (location && stores_.size() < options_.jobs) {
+                stores_.push_back(open_object_store(*location, console_.stop()));
+            }
+        }
+        if (!store_) {
+            store_.emplace(opened_for_import(work_.address, console_));
+            make_missing_key(*store_->trips, console_);
+        }
+    }
+
+    /// Takes and works out some jobs. \returns false if none waits.
+    bool work_batch() {
+        constexpr std::size_t retries_every = 4;
+        if (stores_.empty()) {
+            return false; // nothing was submitted so far
+        }
+        const auto taken =
+            take_jobs(*queue_, taker_, batch_, batches_++ % retries_every == retries_every - 1);
+        if (taken.empty()) {
+            return false;
+        }
+        const auto begin = Clock::now();
+        try {
+            work_out(taken);
+        } catch (...) {
+            put_back(taken);
+            throw;
+        }
+        adapt_batch(taken.size(), Clock::now() - begin);
+        erase_done();
+        fuse_if_older_than(fuse_at_age);
+        return true;
+    }
+
+    void work_out(const std::vector<Job>& taken) {
+        auto fetched = fetch_jobs(taken, folder_.path(), stores_);
+        const auto failed = std::ranges::stable_partition(
+            fetched, [](const FetchedJob& one) { return one.failure.empty(); });
+        if (console_.stop().stop_requested()) {
+            put_back(taken);
+            return;
+        }
+        for (const auto& one : failed) {
+            console_.warn(one.failure);
+            fail_job(*queue_, taker_, one.job, one.failure);
+        }
+        fetched.erase(failed.begin(), failed.end());
+        if (fetched.empty()) {
+            return;
+        }
+        const auto worked = import_jobs(*store_, fetched, options_, vehicles_, console_);
+        heartbeat_->add_finished(finish_jobs(*queue_, taker_, worked.ends));
+        put_back_jobs(*queue_, taker_, worked.left);
+    }
+
+    /// After an error or a stop request; what cannot be given back comes free with its lease.
+    void put_back(const std::vector<Job>& jobs) {
+        try {
+            put_back_jobs(*queue_, taker_, jobs);
+        } catch (const InputError&) {
+            queue_.reset();
+        }
+    }
+
+    /// A batch is to take some seconds: fewer commits than one a log, and enough left for others.
+    void adapt_batch(std::size_t taken, Clock::duration took) {
+        if (took < 3s && taken == batch_) {
+            batch_ = std::min(2 * batch_, max_batch);
+        } else if (took > 10s) {
+            batch_ = std::max(batch_ / 2, options_.jobs);
+        }
+    }
+
+    /// Removes logs from the object store that are imported, also those of killed workers.
+    void erase_done() {
+        if (work_.keeps_logs) {
+            return;
+        }
+        const auto done = jobs_to_erase(*queue_, 2 * max_batch);
+        if (done.empty()) {
+            return;
+        }
+        try {
+            for (const auto& job : done) {
+                stores_.front()->remove(job.sha256);
+            }
+        } catch (const InputError& error) { // others will try
+            console_.warn(error.what());
+            return;
+        }
+        note_erased(*queue_, done);
+    }
+
+    /// Fuses if the oldest new passes wait for so long. Several workers divide the chunks.
+    void fuse_if_older_than(std::chrono::seconds age) {
+        const bool is_due =
+            queue_->number(fmt::format("SELECT count(*) FROM (SELECT FROM macadam.chunk_dirty"
+                                       " WHERE since_ms <= extract(epoch FROM clock_timestamp())"
+                                       " * 1000 - {} LIMIT 1) AS oldest",
+                                       std::chrono::milliseconds{age}.count())) > 0;
+        if (is_due && Clock::now() >= may_fuse_at_) {
+            const auto begin = Clock::now();
+            FusionRecord record;
+            store_->trips->refresh({.report = {}, .stop = console_.stop()}, record);
+            may_fuse_at_ = Clock::now() + 4 * (Clock::now() - begin); // a fifth of the time
+        }
+    }
+
+    /// No job is free: fuses, at once if none is worked on either.
+    /// \returns whether that is all there is to do.
+    bool is_idle_done() {
+        if (!stores_.empty()) {
+            erase_done();
+        }
+        const bool is_empty =
+            queue_->number("SELECT count(*) FROM (SELECT FROM macadam.job WHERE state IN"
+                           " ('queued', 'working') LIMIT 1) AS waiting") == 0;
+        if (is_empty) {
+            may_fuse_at_ = {};
+        }
+        fuse_if_older_than(is_empty ? 0s : fuse_at_age);
+        is_done_ = work_.until_empty && is_empty;
+        return is_done_;
+    }
+
+    void pause(std::chrono::milliseconds about) {
+        std::uniform_real_distribution<double> share{0.5, 1.5};
+        std::mutex mutex;
+        std::unique_lock lock{mutex};
+        std::condition_variable_any stopped;
+        stopped.wait_for(lock, console_.stop(), about * share(random_), [] { return false; });
+    }
+
+    void end() {
+        heartbeat_.reset();
+        try {
+            if (queue_) {
+                end_worker(*queue_, taker_.worker);
+            }
+        } catch (const InputError&) { // it counts as dead after its lease
+            queue_.reset();
+        }
+    }
+
+    const JobWork& work_;
+    const Console& console_;
+    ImportOptions options_;
+    VehicleChoice vehicles_;
+    JobTaker taker_;
+    TemporaryFolder folder_;
+    std::optional<ServerConnection> queue_;
+    std::optional<ImportStore> store_;
+    std::vector<std::unique_ptr<ObjectStore>> stores_; ///< one for each thread that fetches
+    std::optional<WorkerHeartbeat> heartbeat_;
+    std::size_t batch_ = 8;
+    std::size_t batches_ = 0;
+    Clock::time_point may_fuse_at_{};
+    bool is_done_ = false;
+    std::string trouble_;
+    std::minstd_rand random_{std::random_device{}()};
+};
+
+} // namespace
+
+void work_out_jobs(const JobWork& work, const Console& console) {
+    JobWorker{work, console}.run();
+}
+
+} // namespace macadam

@@ -1,0 +1,156 @@
+// Trips that are submitted to a database on a real server, and workers of it, also killed ones.
+
+#include "app/jobs/worker_world.hpp"
+#include "storage/files/sha256.hpp"
+#include "storage/postgres/server_connection.hpp"
+#include "support/program/piped_program.hpp"
+#include "support/s3/s3_service.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::size_t files_below(const fs::path& folder) {
+    std::size_t count = 0;
+    for (const auto& each : fs::recursive_directory_iterator{folder}) {
+        count += each.is_regular_file() ? 1U : 0U;
+    }
+    return count;
+}
+
+TEST(Workers, ImportWhatWasSubmittedAsImportDoes) {
+    WorkerWorld world;
+    world.make_trips(3);
+    auto words = world.submit_words();
+    words.back() = "--json";
+    const auto first = run_macadam(words);
+    EXPECT_EQ(first.exit_status, 0) << first.err;
+    EXPECT_THAT(first.out, AllOf(HasSubstr("\"result\":\"new\""), Not(HasSubstr("known"))));
+    EXPECT_THAT(first.err, HasSubstr("3 logs submitted, 0 again, 0 already known"));
+    EXPECT_EQ(files_below(world.objects), 3U);
+    const auto again = run_macadam(words);
+    EXPECT_THAT(again.err, HasSubstr("0 logs submitted, 0 again, 3 already known"));
+
+    const auto worker = run_macadam(world.worker_words());
+    EXPECT_EQ(worker.exit_status, 0) << worker.err;
+    expect_all_imported(world, 3);
+    EXPECT_EQ(files_below(world.objects), 0U); // logs are personal data
+    EXPECT_THAT(run_macadam(words).err, HasSubstr("3 already known"));
+    const auto table = run_macadam({"status", world.address});
+    EXPECT_THAT(table.out,
+                AllOf(HasSubstr("imported          3\n"),
+                      HasSubstr("no worker"),
+                      HasSubstr("oldest waits for 0 s; 3 finished in the last minute")));
+    EXPECT_THAT(run_macadam({"status", world.address, "--format", "prometheus"}).out,
+                AllOf(HasSubstr("macadam_queue_logs{state=\"imported\"} 3\n"),
+                      HasSubstr("macadam_queue_workers 0\n")));
+}
+
+TEST(Workers, TellWhyALogIsRefusedAndTryItAgainWhenItIsSubmittedAgain) {
+    WorkerWorld world;
+    write_file(world.trips / "junk.trip.csv", "# macadam-trip 1\nt_s,lat_deg\n");
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0);
+    const auto status = nlohmann::json::parse(world.status());
+    EXPECT_EQ(status.at("logs").at("refused"), 1);
+    EXPECT_THAT(status.at("failed").at(0).at("reason").get<std::string>(),
+                AllOf(HasSubstr("log.trip.csv"), Not(HasSubstr("/tmp"))));
+    EXPECT_EQ(files_below(world.objects), 1U);
+    EXPECT_THAT(run_macadam({"submit", world.address, world.trips.string()}).err,
+                HasSubstr("0 logs submitted, 1 again, 0 already known"));
+}
+
+TEST(Workers, FetchLogsFromABucket) {
+    WorkerWorld world;
+    world.make_trips(2);
+    const S3Service service{world.folder};
+    world.objects = "s3://roads/logs";
+    const auto submit = run_macadam(world.submit_words());
+    EXPECT_EQ(submit.exit_status, 0) << submit.err;
+    const auto worker = run_macadam(world.worker_words());
+    EXPECT_EQ(worker.exit_status, 0) << worker.err;
+    expect_all_imported(world, 2);
+}
+
+TEST(Workers, TakeNoDamagedLog) {
+    WorkerWorld world;
+    world.make_trips(1);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    for (const auto& each : fs::recursive_directory_iterator{world.objects}) {
+        if (each.is_regular_file()) {
+            auto log = read_file(each.path());
+            log[log.size() / 2] ^= 1;
+            write_file(each.path(), log);
+        }
+    }
+    ServerConnection{world.address}.run("UPDATE macadam.job SET attempts = 4");
+    const auto worker = run_macadam(world.worker_words());
+    EXPECT_THAT(worker.err, HasSubstr("is damaged: its bytes have another SHA-256"));
+    const auto status = nlohmann::json::parse(world.status());
+    EXPECT_EQ(status.at("logs").at("parked"), 1);
+    EXPECT_THAT(status.at("failed").at(0).at("reason").get<std::string>(), HasSubstr("is damaged"));
+}
+
+TEST(Workers, AreRefusedWithWords) {
+    const WorkerWorld world;
+    ServerConnection server{world.address};
+    server.run("INSERT INTO macadam.work_setting VALUES ('results_version', '0')");
+    const auto worker = run_macadam(world.worker_words());
+    EXPECT_EQ(worker.exit_status, 1);
+    EXPECT_THAT(worker.err,
+                AllOf(HasSubstr("its workers compute results of version 0, this program those of "
+                                "version"),
+                      HasSubstr("values of both must not mix")));
+    const auto of_file =
+        run_macadam({"worker", (world.folder / "roads.gpkg").string(), "--once", "--objects", "x"});
+    EXPECT_EQ(of_file.exit_status, 2);
+    EXPECT_THAT(of_file.err, HasSubstr("--objects is for a database on a server"));
+    const auto nowhere = run_macadam({"submit", world.address, world.folder.string()});
+    EXPECT_EQ(nowhere.exit_status, 2);
+    EXPECT_THAT(nowhere.err, HasSubstr("--objects is missing"));
+}
+
+TEST(Workers, EndAtOnceAndGiveTheirLogsBack) {
+    WorkerWorld world;
+    world.make_trips(30);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    auto words = world.worker_words();
+    words.back() = "--json";
+    PipedProgram worker{words};
+    EXPECT_TRUE(worker.line(60s).has_value()); // it works
+    worker.signal(SIGTERM);
+    EXPECT_EQ(worker.wait().exit_status, 0);
+    const auto status = nlohmann::json::parse(world.status());
+    EXPECT_EQ(status.at("logs").at("working"), 0);
+    EXPECT_EQ(ServerConnection{world.address}.number("SELECT max(attempts) FROM macadam.job"), 1);
+    EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0);
+    expect_all_imported(world, 30);
+}
+
+// 300 kills over 3,000 trips: worker_kills.cpp.
+TEST(Workers, LoseNoTripAndCountNoneTwiceWhenTheyAreKilled) {
+    WorkerWorld world;
+    constexpr std::size_t trips = 40;
+    world.make_trips(trips);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    EXPECT_GE(kill_workers(world, {.workers = 2, .kills = 10, .longest_life = 1500ms}), 3U);
+    expect_all_imported(world, trips);
+}
+
+} // namespace
+} // namespace macadam::testing

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "support/program/postgres_server.hpp"
+#include "support/program/program.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+
+/// Road database on a server, with logs of trips over its road and an empty object store.
+struct WorkerWorld {
+    /// \param most  time after which the server ends itself
+    explicit WorkerWorld(std::chrono::seconds most = std::chrono::seconds{110});
+
+    /// Writes logs of different trips into folder `trips`.
+    void make_trips(std::size_t count);
+
+    std::vector<std::string> submit_words() const;
+    std::vector<std::string> worker_words() const; ///< until the queue is empty
+
+    /// Digest of the database.
+    std::string digest() const;
+    /// Digest of a file into which the folder of trips was imported.
+    std::string digest_of_import() const;
+
+    /// Output of `macadam status --json`.
+    std::string status() const;
+
+    std::filesystem::path folder;
+    PostgresServer server;
+    std::string address;
+    std::string objects;
+    std::filesystem::path trips;
+};
+
+/// Kills workers at random moments while they work out so many trips.
+/// \returns how often one was killed.
+struct KillPlan {
+    std::size_t workers, kills;
+    std::chrono::milliseconds longest_life;
+};
+std::size_t kill_workers(const WorkerWorld& world, const KillPlan& plan);
+
+/// Expects that the queue is worked out: every trip in the database once, none twice.
+void expect_all_imported(const WorkerWorld& world, std::size_t count);
+
+} // namespace macadam::testing
