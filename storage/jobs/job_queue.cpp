@@ -61,7 +61,7 @@ std::vector<Job>
 take(ServerConnection& server, const JobTaker& taker, std::size_t at_most, std::string_view begun) {
     return jobs_in(server.rows(
         fmt::format("WITH next AS (SELECT sha256 FROM macadam.job"
-                    " WHERE state IN ('queued', 'working') AND (attempts > 0) = {}"
+                    " WHERE state IN ('queued', 'working') AND attempts {}"
                     " AND (state = 'queued' AND not_before <= now() OR lease_until < now())"
                     " AND attempts < {}"
                     " ORDER BY number LIMIT $3 FOR UPDATE SKIP LOCKED)"
@@ -146,7 +146,7 @@ std::vector<Job> take_jobs(ServerConnection& server,
     constexpr std::size_t alone = 1;
     for (const bool is_retry : {first_retries, !first_retries}) {
         auto taken =
-            is_retry ? take(server, taker, alone, "true") : take(server, taker, at_most, "false");
+            is_retry ? take(server, taker, alone, "> 0") : take(server, taker, at_most, "= 0");
         if (!taken.empty()) {
             return taken;
         }

@@ -2,8 +2,8 @@
 
 namespace macadam {
 
-// Waiting rows are found by job_to_do, whatever the number of those that are done. Who is a member
-// of macadam_importer submits and works; the rights of PUBLIC stay none.
+// Waiting rows are found by job_new and job_begun, whatever the number of those that are done. Who
+// is a member of macadam_importer submits and works; the rights of PUBLIC stay none.
 const char* const job_schema = R"sql(
 CREATE TABLE macadam.job (
     sha256 text PRIMARY KEY CHECK (sha256 ~ '^[0-9a-f]{64}$'),
@@ -23,7 +23,8 @@ CREATE TABLE macadam.job (
     submitted_at timestamptz NOT NULL DEFAULT now(),
     finished_at timestamptz
 );
-CREATE INDEX job_to_do ON macadam.job ((attempts > 0), number) WHERE state IN ('queued', 'working');
+CREATE INDEX job_new ON macadam.job (number) WHERE state IN ('queued', 'working') AND attempts = 0;
+CREATE INDEX job_begun ON macadam.job (number) WHERE state IN ('queued', 'working') AND attempts > 0;
 CREATE INDEX job_to_erase ON macadam.job (number) WHERE has_object AND state IN ('imported', 'known');
 CREATE INDEX job_finished ON macadam.job (finished_at);
 COMMENT ON TABLE macadam.job IS 'Trip logs that were submitted: a queue for workers, and what became of each';
@@ -42,7 +43,8 @@ COMMENT ON COLUMN macadam.job.has_object IS 'Whether the object store still has 
 COMMENT ON COLUMN macadam.job.submissions IS 'Times that it was submitted';
 COMMENT ON COLUMN macadam.job.submitted_at IS 'First submission';
 COMMENT ON COLUMN macadam.job.finished_at IS 'When it got its last state';
-COMMENT ON INDEX macadam.job_to_do IS 'Logs that wait, new ones first';
+COMMENT ON INDEX macadam.job_new IS 'Logs that wait, in order';
+COMMENT ON INDEX macadam.job_begun IS 'Logs that workers have begun, and perhaps not finished';
 COMMENT ON INDEX macadam.job_to_erase IS 'Logs that the object store no longer needs';
 COMMENT ON INDEX macadam.job_finished IS 'Logs by the time of their end, for rates';
 

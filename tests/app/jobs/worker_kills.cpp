@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Workers, LoseNothingInThreeHundredKillsOverThreeThousandTrips) {
-    WorkerWorld world{1700s};
+    WorkerWorld world;
     constexpr std::size_t trips = 3000, kills = 300;
     world.make_trips(trips);
     ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);

@@ -2,6 +2,7 @@
 
 #include "storage/postgres/server_connection.hpp"
 #include "support/program/piped_program.hpp"
+#include "support/program/postgres_server.hpp"
 #include "support/roads/drive.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +28,12 @@ std::string log_named(const std::string& trip_id) {
                    drive);
 }
 
+std::string new_address() {
+    static PostgresServer server{std::chrono::seconds{1700}}; // as long as the longest test
+    static int number = 0;
+    return server.new_database(fmt::format("roads{}", ++number));
+}
+
 void expect_done(const std::vector<std::string>& words) {
     const auto run = run_macadam(words);
     ASSERT_EQ(run.exit_status, 0) << run.err;
@@ -34,9 +41,9 @@ void expect_done(const std::vector<std::string>& words) {
 
 } // namespace
 
-WorkerWorld::WorkerWorld(std::chrono::seconds most)
-    : folder{fresh_folder()}, server{most}, address{server.new_database("roads")},
-      objects{(folder / "objects").string()}, trips{folder / "trips"} {
+WorkerWorld::WorkerWorld()
+    : folder{fresh_folder()}, address{new_address()}, objects{(folder / "objects").string()},
+      trips{folder / "trips"} {
     fs::create_directory(trips);
     write_file(folder / "road.trip.csv", log_named("road"));
     const auto file = (folder / "roads.gpkg").string();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
 
 #include <chrono>
@@ -11,10 +10,10 @@
 
 namespace macadam::testing {
 
-/// Road database on a server, with logs of trips over its road and an empty object store.
+/// Road database on the server of this process, with logs of trips over its road and an empty
+/// object store.
 struct WorkerWorld {
-    /// \param most  time after which the server ends itself
-    explicit WorkerWorld(std::chrono::seconds most = std::chrono::seconds{110});
+    WorkerWorld();
 
     /// Writes logs of different trips into folder `trips`.
     void make_trips(std::size_t count);
@@ -31,7 +30,6 @@ struct WorkerWorld {
     std::string status() const;
 
     std::filesystem::path folder;
-    PostgresServer server;
     std::string address;
     std::string objects;
     std::filesystem::path trips;
