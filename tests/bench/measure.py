@@ -8,7 +8,8 @@ WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
-NAME           start process estimation match store calibration render vector_tile web; all when none is named
+NAME           start process estimation match store calibration render vector_tile web serve; all when none
+               is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
 the median of the turns, and the ratio is what counts. CPU seconds are user and system together.
@@ -30,6 +31,7 @@ import time
 from pathlib import Path
 
 from match_report import match_report
+from serve_report import serve_report
 
 SOURCE = Path(__file__).resolve().parents[2]
 FLEET = SOURCE / "sample_data" / "fleet"
@@ -274,7 +276,7 @@ PARTS = {
                    "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
-          "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles", "web": "Web page"}
+          "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles", "web": "Web page", "serve": "Server"}
 
 
 def kept(document, sections):
@@ -389,6 +391,8 @@ def measured(name, arguments, macadam):
         return process(macadam, arguments.work)
     if name == "web":
         return web_page(arguments.build, arguments.work, macadam)
+    if name == "serve":
+        return serve_report(macadam, tile_store(arguments.build, arguments.work, 223), arguments.work / "serve", table)
     if name == "match":
         return match_report(arguments.build, arguments.kubicka)
     text = part(arguments.build, name, PARTS[name])
