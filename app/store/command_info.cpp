@@ -92,6 +92,9 @@ std::string json_of(const StoreInfo& info,
     object.add("classes", JsonRaw{class_lengths_json(info.classes, info.km, units)})
         .add("laid_on_others", JsonRaw{json_of(info.alignment, units)});
     add_to(object, tables, units);
+    if (info.settings.max_trips_per_car_month > 0) {
+        object.add("max_trips_per_car_month", info.settings.max_trips_per_car_month);
+    }
     object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
     if (info.settings.privacy == PrivacyProfile::crowd) {
         object.add("publication", JsonRaw{json_of(info.publication)})
@@ -155,6 +158,10 @@ std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
     if (info.settings.privacy == PrivacyProfile::crowd) {
         text += fmt::format("published   {}\n",
                             info.publication ? words_for(*info.publication) : "nothing yet");
+    }
+    if (const auto limit = info.settings.max_trips_per_car_month; limit > 0) {
+        text += fmt::format("fused       at most {} of a car over a segment in a month\n",
+                            counted(static_cast<std::size_t>(limit), "trip"));
     }
     if (info.lateral_passes > 0) {
         text += fmt::format("lateral     {} of the passes from lateral acceleration only, "

@@ -27,6 +27,7 @@ namespace {
 
 constexpr double min_segment_m = 5;
 constexpr double max_segment_m = 1000;
+constexpr std::int64_t max_trip_limit = 1000;
 
 struct InitOptions {
     std::filesystem::path store;
@@ -38,6 +39,7 @@ struct InitOptions {
     std::string attribution;
     double segment_length_m;
     PrivacyProfile privacy;
+    std::int64_t max_trips_per_car_month; ///< 0: all
     bool json;
 };
 
@@ -48,6 +50,18 @@ PrivacyProfile privacy_in(const Arguments& arguments) {
         throw UsageError{fmt::format("--privacy is {}, expected own or crowd", in_quotes(name))};
     }
     return *profile;
+}
+
+std::int64_t trip_limit_in(const Arguments& arguments, const InitOptions& options) {
+    const auto limit = arguments.integer("--max-trips-per-car-month");
+    if (limit && options.update) {
+        throw UsageError{"--max-trips-per-car-month cannot be changed by --update"};
+    }
+    if (limit && (*limit < 1 || *limit > max_trip_limit)) {
+        throw UsageError{fmt::format(
+            "--max-trips-per-car-month is {}, expected 1 to {}", *limit, max_trip_limit)};
+    }
+    return limit.value_or(0);
 }
 
 TripPaths trips_in(const Arguments& arguments, std::string_view option) {
@@ -95,6 +109,7 @@ InitOptions parse_init(const Arguments& arguments) {
     if (options.privacy == PrivacyProfile::crowd && is_on_server) {
         throw UsageError{"--privacy crowd works with a .gpkg file only so far"};
     }
+    options.max_trips_per_car_month = trip_limit_in(arguments, options);
     if (options.privacy == PrivacyProfile::crowd && is_traced) {
         throw UsageError{
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "
@@ -196,6 +211,7 @@ void make_store(const InitOptions& options, const Console& console) {
     settings.network_source = source.name;
     settings.attribution = source.attribution;
     settings.privacy = options.privacy;
+    settings.max_trips_per_car_month = options.max_trips_per_car_month;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     tell_of_size(roads, options, console);
     const auto info = create_store(options.store, roads, settings, console);
@@ -277,6 +293,10 @@ constexpr std::array options{
     max_members_option,
     Option{
         "--segment-length", "METRES", "Approximate length of a segment, the unit of fusion.", "20"},
+    rare({"--max-trips-per-car-month",
+          "K",
+          "Fuse at most K trips of a car over a segment in a month; the others are kept.",
+          "all"}),
     rare(in_group("line layers",
                   {"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"})),
     rare(in_group("line layers",

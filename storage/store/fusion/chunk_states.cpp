@@ -1,6 +1,7 @@
 #include "storage/store/fusion/chunk_states.hpp"
 
 #include "mapping/passes/trip_cutting.hpp"
+#include "storage/store/schema/store_schema.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -75,8 +76,9 @@ DriveSet drives_of(std::span<const ChunkPass> passes) {
 }
 
 ChunkFusion::ChunkFusion(Database& database)
-    : traces_{database}, passes_{database}, valid_from_{database},
-      cars_{read_calibrations(database)}, config_{read_fusion_config(database)} {}
+    : traces_{database}, passes_{database}, valid_from_{database}, cars_{read_calibrations(
+                                                                       database)},
+      config_{read_fusion_config(database)}, limit_{read_max_trips_per_car_month(database)} {}
 
 std::vector<ChunkPass> ChunkFusion::valid_passes(std::int64_t chunk, std::int64_t segments) {
     auto passes = passes_.of(chunk, segments);
@@ -87,12 +89,33 @@ std::vector<ChunkPass> ChunkFusion::valid_passes(std::int64_t chunk, std::int64_
                    !(pass.input.utc_ms && *pass.input.utc_ms >= since->second);
         });
     }
+    keep_limited(passes);
     for (auto& pass : passes) {
         if (const auto car = cars_.find(pass.input.vehicle); car != cars_.end()) {
             set_calibration(pass.input, car->second);
         }
     }
     return passes;
+}
+
+/// Removes the passes of trips beyond the limit, so that neither they nor their traces cost
+/// anything.
+void ChunkFusion::keep_limited(std::vector<ChunkPass>& passes) {
+    if (!limit_.is_limited()) {
+        return;
+    }
+    std::optional<std::int64_t> segment;
+    std::vector<ChunkPass> kept;
+    for (auto& pass : passes) {
+        if (segment != pass.fid) {
+            limit_.begin_segment();
+            segment = pass.fid;
+        }
+        if (limit_.admits(pass.input)) {
+            kept.push_back(std::move(pass));
+        }
+    }
+    passes = std::move(kept);
 }
 
 std::vector<ChunkPass> ChunkFusion::readings(std::int64_t chunk,
@@ -119,10 +142,12 @@ void ChunkFusion::align_with_each_other(std::int64_t chunk, std::vector<ChunkPas
 }
 
 FusedChunk ChunkFusion::of(std::int64_t chunk, std::int64_t segments_per_chunk) {
-    const auto traces = traces_.placed(chunk);
+    auto passes = valid_passes(chunk, segments_per_chunk);
+    const auto traces =
+        limit_.is_limited() ? traces_.placed(chunk, drives_of(passes)) : traces_.placed(chunk);
     std::vector<LagLine> lags;
     std::ranges::transform(traces, std::back_inserter(lags), &AlignedTrace::lag);
-    return {summary_of(lags), fused(valid_passes(chunk, segments_per_chunk), traces, config_)};
+    return {summary_of(lags), fused(std::move(passes), traces, config_)};
 }
 
 std::vector<FusedSegment>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/fusion/fusion.hpp"
+#include "mapping/fusion/trip_limit.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/fusion/chunk_passes.hpp"
 #include "storage/store/fusion/chunk_trace_rows.hpp"
@@ -70,12 +71,14 @@ public:
 
 private:
     std::vector<ChunkPass> valid_passes(std::int64_t chunk, std::int64_t segments_per_chunk);
+    void keep_limited(std::vector<ChunkPass>& passes);
 
     ChunkTraces traces_;
     ChunkPasses passes_;
     ValidFrom valid_from_;
     CarRecords cars_;
     FusionConfig config_;
+    TripLimit limit_;
 };
 
 } // namespace macadam

@@ -307,7 +307,8 @@ void build_shadow_calibration(Database& database, const CalibrationReport& calib
     database.run("CREATE TEMP TABLE calibration AS SELECT * FROM main.calibration WHERE 0;"
                  "CREATE TEMP TABLE calibration_period AS SELECT * FROM main.calibration_period"
                  " WHERE 0;"
-                 "CREATE TEMP TABLE fusion_setting (key TEXT PRIMARY KEY NOT NULL, value INTEGER)");
+                 "CREATE TEMP TABLE fusion_setting (key TEXT PRIMARY KEY NOT NULL, value INTEGER);"
+                 "INSERT INTO temp.fusion_setting SELECT key, value FROM main.fusion_setting");
     write_rules(database, calibration);
 }
 

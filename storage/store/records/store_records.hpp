@@ -29,6 +29,7 @@ struct StoreSettings {
     std::string network_source; ///< file name of the map, or "traced from the trips"
     std::string attribution;    ///< copyright notice for pictures of these roads
     PrivacyProfile privacy = PrivacyProfile::own;
+    std::int64_t max_trips_per_car_month = 0; ///< of a car that are fused over a segment; 0: all
 };
 
 /// Replaces the name of the map for roads from `init --trace`.

@@ -27,6 +27,8 @@ namespace {
 constexpr double min_segment_m = 0.1; // far below and above the limits of 'macadam init'
 constexpr double max_segment_m = 100'000;
 
+constexpr std::string_view max_trips_key = "max_trips_per_car_month"; // of table fusion_setting
+
 void put(Database& database, std::string_view key, std::string_view value) {
     database.prepare("INSERT INTO meta VALUES (?, ?)").run(key, value);
 }
@@ -66,6 +68,10 @@ void write_meta(Database& database,
     put(database, "network_m", fmt::format("{}", written.length_m));
     put(database, "generation", "1");
     put(database, "privacy", name_of(settings.privacy));
+    if (settings.max_trips_per_car_month > 0) {
+        database.prepare("INSERT INTO fusion_setting VALUES (?, ?)")
+            .run(max_trips_key, settings.max_trips_per_car_month);
+    }
 }
 
 } // namespace
@@ -175,7 +181,13 @@ StoreSettings read_settings(Database& database) {
           settings.segment_length_m <= max_segment_m)) {
         refuse("segment_length_m", "a length of segments");
     }
+    settings.max_trips_per_car_month = read_max_trips_per_car_month(database);
     return settings;
+}
+
+std::int64_t read_max_trips_per_car_month(Database& database) {
+    auto select = database.prepare("SELECT value FROM fusion_setting WHERE key = ?");
+    return select.bind(max_trips_key).step() ? std::max<std::int64_t>(0, select.integer(0)) : 0;
 }
 
 bool are_rows_in_order(Database& database) {

@@ -54,6 +54,9 @@ inline constexpr int oldest_store_version = 2;
 /// \throws InputError  for an unknown class table or an invalid segment length.
 StoreSettings read_settings(Database& database);
 
+/// Reads StoreSettings::max_trips_per_car_month, a rule of fusion.
+std::int64_t read_max_trips_per_car_month(Database& database);
+
 /// Tests whether the rows of table segment are in the order of keys, as written by init. Those of
 /// one way always are.
 bool are_rows_in_order(Database& database);
