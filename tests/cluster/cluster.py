@@ -23,6 +23,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
+from backup import restored_to_a_moment  # noqa: E402
 from ledger import Clients, Templates, breaches, store  # noqa: E402
 from nemesis import Nemesis, haunt  # noqa: E402
 from nodes import Cluster, is_alive, leave_init_behind, pid_in, run, send  # noqa: E402
@@ -143,6 +144,13 @@ class Trial:
         environment = {**os.environ, "PGPASSFILE": str(self.cluster.folder / "pgpass"), "HOME": str(self.folder)}
         return run(self.arguments.program, *words, env=environment, timeout=600, cwd=self.folder)
 
+    def psql(self, address, *words, **options):
+        environment = {"PATH": os.environ["PATH"], "PGPASSFILE": str(self.cluster.folder / "pgpass")}
+        return run("psql", "-X", "-v", "ON_ERROR_STOP=1", address, *words, env=environment, timeout=300, **options)
+
+    def say(self, words):
+        say(words)
+
     def expect(self, holds, claim):
         say(f"{'holds' if holds else 'BREACH'}: {claim}")
         if not holds:
@@ -170,9 +178,13 @@ class Trial:
         return templates
 
     def digest(self, database):
+        return self.digest_at(self.cluster.address(database), database)
+
+    def digest_at(self, address, name):
         """Digest of what a server holds, fetched into a GeoPackage."""
-        file = self.folder / f"{database}.gpkg"
-        self.macadam("copy", self.cluster.address(database), str(file))
+        file = self.folder / f"{name}.gpkg"
+        file.unlink(missing_ok=True)
+        self.macadam("copy", address, str(file))
         return self.macadam("info", str(file), "--digest").strip()
 
     def replayed(self, roads, found, templates):
@@ -211,6 +223,7 @@ class Trial:
             self.expect(stall <= MAX_STALL_S, f"writes went on within {MAX_STALL_S} s, with nobody touching anything")
         self.expect(self.digest("ledger") == self.replayed(roads, found, templates),
                     "the digest is that of an undisturbed replay")
+        return templates
 
     def without_synchronous_commits(self, roads):
         """The checks must find what asynchronous commits lose, or they are no good."""
@@ -238,7 +251,8 @@ class Trial:
             roads = self.simulate_trips()
             self.cluster.start()
             say(f"up\n{self.cluster.list()}")
-            self.disturbed(roads)
+            templates = self.disturbed(roads)
+            restored_to_a_moment(self, templates)
             self.without_synchronous_commits(roads)
         finally:
             self.cluster.stop()

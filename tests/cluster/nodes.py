@@ -105,6 +105,8 @@ class Node:
         self.off = set()  # programs that are not started again
 
     def prepare(self):
+        if len(str(self.folder)) > 80:
+            raise RuntimeError(f"{self.folder}: its name is too long for a Unix socket in it, expected 80 bytes at most")
         (self.folder / "disk").mkdir(parents=True, exist_ok=True)
         (self.folder / "etcd").mkdir(mode=0o700, exist_ok=True)
         if self.cluster.isolated:
@@ -152,6 +154,10 @@ class Node:
                         "parameters": {
                             "max_connections": 60,
                             "wal_level": "replica",
+                            "archive_mode": True,
+                            "archive_timeout": "5min",
+                            "archive_command": "test ! -e ../../pgbackrest.conf || pgbackrest --stanza=macadam"
+                                               " --config=$(realpath ../../pgbackrest.conf) archive-push %p",
                             "wal_log_hints": True,
                             "max_wal_size": "128MB",
                             "wal_keep_size": "64MB",
@@ -175,7 +181,7 @@ class Node:
                     "rewind": {"username": "rewinder", "password": passwords["rewinder"]},
                 },
                 "parameters": {
-                    "unix_socket_directories": "",
+                    "unix_socket_directories": str(self.folder),
                     "password_encryption": "scram-sha-256",
                     "shared_buffers": "48MB",
                     "jit": False,
@@ -185,6 +191,7 @@ class Node:
                     "tcp_keepalives_count": 3,
                 },
                 "pg_hba": [
+                    "local all postgres scram-sha-256",
                     f"host all all {network} scram-sha-256",
                     f"host replication replicator {network} scram-sha-256",
                 ],

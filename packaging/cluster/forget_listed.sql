@@ -1,0 +1,42 @@
+-- Deletes the trips of a list of marks again, after a database was restored to a moment before they were
+-- forgotten (docs/cluster.md). By the owner of the database, before anyone else may connect:
+--
+--     psql -X postgresql://macadam@HOST/roads -f forget_listed.sql < forgotten.txt
+--
+-- All values of the chunks that they drove over go, too, until these are fused again.
+\set ON_ERROR_STOP on
+BEGIN;
+SET LOCAL search_path = pg_catalog, pg_temp;
+CREATE TEMP TABLE listed (mark text NOT NULL) ON COMMIT DROP;
+\copy listed FROM pstdin
+INSERT INTO macadam.forgotten SELECT DISTINCT mark FROM listed ON CONFLICT DO NOTHING;
+
+CREATE TEMP TABLE leaving ON COMMIT DROP AS
+    SELECT id FROM macadam.trip WHERE encode(sha256(convert_to('macadam forgot ' || sha256, 'UTF8')), 'hex')
+        IN (SELECT mark FROM macadam.forgotten);
+CREATE TEMP TABLE touched ON COMMIT DROP AS
+    SELECT segment.cell, segment.chunk, segment.fid FROM macadam.segment
+    WHERE (segment.cell, segment.chunk) IN
+        (SELECT cell, chunk FROM macadam.drive WHERE trip IN (SELECT id FROM leaving));
+
+INSERT INTO macadam.chunk_dirty AS dirty (chunk) SELECT DISTINCT chunk FROM touched
+    ON CONFLICT (chunk) DO UPDATE SET marks = dirty.marks + 1;
+INSERT INTO macadam.segment_dirty SELECT fid FROM macadam.segment_state JOIN touched USING (cell, fid)
+    ON CONFLICT DO NOTHING;
+DELETE FROM macadam.state_change WHERE segment IN (SELECT fid FROM touched);
+DELETE FROM macadam.segment_state WHERE (cell, fid) IN (SELECT cell, fid FROM touched);
+DELETE FROM macadam.chunk_state WHERE chunk IN (SELECT chunk FROM touched);
+DELETE FROM macadam.drive WHERE trip IN (SELECT id FROM leaving);
+DELETE FROM macadam.event WHERE trip IN (SELECT id FROM leaving);
+DELETE FROM macadam.event_search WHERE trip IN (SELECT id FROM leaving);
+DELETE FROM macadam.row_reason WHERE trip IN (SELECT id FROM leaving);
+DELETE FROM macadam.trip WHERE id IN (SELECT id FROM leaving);
+DELETE FROM macadam.calibration WHERE vehicle NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
+DELETE FROM macadam.calibration_period WHERE vehicle NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
+DELETE FROM macadam.vehicle WHERE id NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
+INSERT INTO macadam.audit (at, generation, what, detail)
+    SELECT to_char(now() AT TIME ZONE 'UTC', 'YYYY-MM-DD"T"HH24:MI:SS"Z"'),
+           (SELECT value::bigint FROM macadam.meta WHERE key = 'generation'), 'forget',
+           'trips: ' || count(*) || ', listed, after a restore' FROM leaving;
+SELECT count(*) AS "trips deleted again" FROM leaving;
+COMMIT;

@@ -1,0 +1,147 @@
+"""A backup of the cluster with pgBackRest, restored to a moment, from which forgotten trips are taken out again."""
+
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+import psycopg2
+
+from ledger import hash_of, store
+from nodes import DATABASE_PORT, programs, run, send, tree
+
+STANZA = "macadam"
+RESTORED_PORT = 15433
+AGAIN = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "forget_listed.sql"
+
+# As `macadam forget` does in a file: the trip goes, a mark stays.
+FORGET = """
+INSERT INTO macadam.forgotten VALUES (encode(sha256(convert_to('macadam forgot ' || %(hash)s, 'UTF8')), 'hex'));
+DELETE FROM macadam.drive WHERE trip = (SELECT id FROM macadam.trip WHERE sha256 = %(hash)s);
+DELETE FROM macadam.trip WHERE sha256 = %(hash)s;
+"""
+
+
+class Backup:
+    def __init__(self, cluster):
+        self.cluster = cluster
+        self.repository = cluster.folder / "backup"
+
+    def configure(self):
+        """From now on each server sends its WAL (nodes.py): all into one repository, which is no part of a server."""
+        self.repository.mkdir(mode=0o700)
+        for node in self.cluster.nodes:
+            (node.folder / "pgbackrest.conf").write_text(
+                f"[global]\nrepo1-path={self.repository}\nrepo1-retention-full=2\nstart-fast=y\nprocess-max=1\n"
+                f"log-level-file=off\nlog-level-console=warn\nlock-path={node.folder}/lock\nspool-path={node.folder}/spool\n"
+                f"compress-type=zst\n[{STANZA}]\npg1-path={node.data}\npg1-port={DATABASE_PORT}\n"
+                f"pg1-socket-path={node.folder}\npg1-user=postgres\n")
+
+    def command(self, node, *words):
+        environment = {"PATH": f"{programs()}:/usr/bin:/bin", "PGPASSFILE": str(self.cluster.folder / "pgpass"),
+                       "LC_ALL": "C.UTF-8"}
+        return run(*node.as_user(["pgbackrest", f"--config={node.folder}/pgbackrest.conf", f"--stanza={STANZA}", *words]),
+                   env=environment, cwd="/", timeout=300)
+
+    def take(self):
+        node = self.cluster.primary()
+        self.command(node, "stanza-create")
+        self.command(node, "--type=full", "backup")
+
+    def finish_wal(self):
+        """Waits until all that was committed is in the repository."""
+        connection = self.cluster.connect("postgres", "postgres")
+        connection.autocommit = True
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT pg_walfile_name(pg_switch_wal())")
+            name = cursor.fetchone()[0]
+            for _ in range(240):
+                cursor.execute("SELECT coalesce(last_archived_wal >= %s, false) FROM pg_stat_archiver", (name,))
+                if cursor.fetchone()[0]:
+                    connection.close()
+                    return
+                time.sleep(0.25)
+        raise RuntimeError(f"WAL {name} was not archived in a minute")
+
+    def restore(self, moment):
+        """Starts a server, apart from the cluster, with the database of a moment."""
+        node = self.cluster.nodes[0]
+        data = self.cluster.folder / "restored"
+        shutil.rmtree(data, ignore_errors=True)
+        data.mkdir(mode=0o700)
+        self.command(node, f"--pg1-path={data}", "--type=time", f"--target={moment}", "--target-action=promote", "restore")
+        settings = {"port": RESTORED_PORT, "listen_addresses": node.address, "unix_socket_directories": "",
+                    "archive_mode": "off", "synchronous_standby_names": "", "primary_conninfo": "", "primary_slot_name": ""}
+        with (self.cluster.folder / "restored.log").open("wb") as log:
+            self.process = subprocess.Popen(
+                node.as_user([str(programs() / "postgres"), "-D", str(data),
+                              *(word for name, value in settings.items() for word in ("-c", f"{name}={value}"))]),
+                stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd="/", env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8"})
+        for _ in range(240):
+            try:
+                connection = self.connect("postgres", "postgres")
+                with connection.cursor() as cursor:
+                    cursor.execute("SELECT pg_is_in_recovery()")
+                    still = cursor.fetchone()[0]
+                connection.close()
+                if not still:
+                    return
+            except psycopg2.Error:
+                pass
+            time.sleep(0.5)
+        raise RuntimeError(f"the restored server does not start: {self.cluster.folder}/restored.log")
+
+    def connect(self, database, role="macadam"):
+        return psycopg2.connect(host=self.cluster.nodes[0].address, port=RESTORED_PORT, dbname=database, user=role,
+                                password=self.cluster.passwords[role])
+
+    def address(self, database):
+        return f"postgresql://macadam@{self.cluster.nodes[0].address}:{RESTORED_PORT}/{database}"
+
+    def stop(self):
+        send(tree([self.process.pid]), signal.SIGKILL)
+
+
+def restored_to_a_moment(trial, templates):
+    """The digest is that of the moment, and who was forgotten later is forgotten again."""
+    backup = Backup(trial.cluster)
+    backup.configure()
+    backup.take()
+    trial.say("backup taken")
+    first = 1_000_000  # trips that nobody else stores
+    connection = trial.cluster.connect("ledger")
+    for number in range(first, first + 20):
+        store(connection, templates, number)
+    digest = trial.digest("ledger")
+    with connection.cursor() as cursor:
+        cursor.execute("SELECT clock_timestamp()::text")
+        moment = cursor.fetchone()[0]
+    connection.commit()
+    time.sleep(1)
+    forgotten = hash_of(first + 7)
+    with connection.cursor() as cursor:
+        cursor.execute(FORGET, {"hash": forgotten})
+    for number in range(first + 20, first + 30):
+        store(connection, templates, number)
+    connection.commit()
+    address = trial.cluster.address("ledger")
+    marks = trial.psql(address, "-Atc", "SELECT mark FROM macadam.forgotten")
+    connection.close()
+    backup.finish_wal()
+    backup.restore(moment)
+    try:
+        trial.expect(trial.digest_at(backup.address("ledger"), "restored") == digest,
+                     "a backup restored to a moment has the digest of that moment")
+        trial.psql(backup.address("ledger"), "-f", str(AGAIN), input=marks)
+        restored = backup.connect("ledger")
+        with restored.cursor() as cursor:
+            cursor.execute("SELECT count(*), count(*) FILTER (WHERE sha256 = %s) FROM macadam.trip"
+                           " WHERE sha256 = ANY(%s)", (forgotten, [hash_of(number) for number in range(first, first + 30)]))
+            trips, back = cursor.fetchone()
+            cursor.execute("SELECT count(*) FROM macadam.drive WHERE trip NOT IN (SELECT id FROM macadam.trip)")
+            orphans = cursor.fetchone()[0]
+        restored.close()
+        trial.expect((trips, back, orphans) == (19, 0, 0), "a trip forgotten after the backup does not come back with it")
+    finally:
+        backup.stop()
