@@ -175,6 +175,7 @@ class Node:
                 "bin_dir": str(programs()),
                 "data_dir": str(self.data),
                 "pgpass": str(self.folder / "pgpass"),
+                "basebackup": [{"checkpoint": "fast"}],
                 "authentication": {
                     "superuser": {"username": "postgres", "password": passwords["postgres"]},
                     "replication": {"username": "replicator", "password": passwords["replicator"]},

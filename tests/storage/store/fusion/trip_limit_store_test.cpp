@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <random>
@@ -31,7 +32,7 @@ constexpr std::int64_t max_trips = 2;
 TripRecord trip(int number) {
     auto record = trip_record(number);
     record.t0_utc_ms =
-        std::int64_t{1'767'225'600'000} + 86'400'000 * (1 + number + (number % 2) * 40);
+        1'767'225'600'000 + std::int64_t{86'400'000} * (1 + number + (number % 2) * 40);
     return record;
 }
 
@@ -49,23 +50,25 @@ void add(RoadStore& store, int number) {
     testing::add_trip(store, trip(number), passes, {&trace, 1});
 }
 
-RoadStore limited_store(const std::string& name, std::int64_t limit) {
-    auto settings = testing::settings();
-    settings.max_trips_per_car_month = limit;
-    return RoadStore::create(test_folder() / name, small_country(), settings);
-}
-
-RoadStore filled(const std::string& name, std::int64_t limit, const std::vector<int>& numbers) {
-    auto store = limited_store(name, limit);
-    for (const int number : numbers) {
-        add(store, number);
-        if (number % 5 == 0) {
-            store.importer.refresh();
+class LimitedStores : public ::testing::Test {
+protected:
+    /// Database with trips, imported in this order and fused now and then.
+    RoadStore filled(const std::string& name, std::int64_t limit, const std::vector<int>& numbers) {
+        auto settings = testing::settings();
+        settings.max_trips_per_car_month = limit;
+        auto store = RoadStore::create(folder_ / name, small_country(), settings);
+        for (const int number : numbers) {
+            add(store, number);
+            if (number % 5 == 0) {
+                store.importer.refresh();
+            }
         }
+        store.importer.refresh();
+        return store;
     }
-    store.importer.refresh();
-    return store;
-}
+
+    std::filesystem::path folder_ = test_folder();
+};
 
 std::vector<int> all_trips() {
     std::vector<int> numbers(trip_count);
@@ -102,7 +105,7 @@ std::vector<std::string> states_of(const RoadStore& store) {
     return states;
 }
 
-TEST(LimitedStores, FuseWhatTheLowestHashesOfEachCarAndMonthWouldGiveAlone) {
+TEST_F(LimitedStores, FuseWhatTheLowestHashesOfEachCarAndMonthWouldGiveAlone) {
     const auto store = filled("limited.gpkg", max_trips, all_trips());
     const auto chosen = chosen_trips(all_trips());
     ASSERT_EQ(chosen.size(), 12U);
@@ -113,7 +116,7 @@ TEST(LimitedStores, FuseWhatTheLowestHashesOfEachCarAndMonthWouldGiveAlone) {
     EXPECT_EQ(store.info().trips, 18U); // all are kept
 }
 
-TEST(LimitedStores, HaveOneDigestInAnyOrderOfImport) {
+TEST_F(LimitedStores, HaveOneDigestInAnyOrderOfImport) {
     auto numbers = all_trips();
     const auto digest = filled("first.gpkg", max_trips, numbers).digest();
     std::mt19937 random{3};
@@ -123,7 +126,7 @@ TEST(LimitedStores, HaveOneDigestInAnyOrderOfImport) {
     }
 }
 
-TEST(LimitedStores, AreAfterForgettingAsIfTheTripHadNeverCome) {
+TEST_F(LimitedStores, AreAfterForgettingAsIfTheTripHadNeverCome) {
     auto store = filled("forgets.gpkg", max_trips, all_trips());
     auto numbers = all_trips();
     const int fused = chosen_trips(numbers).front();
@@ -133,16 +136,16 @@ TEST(LimitedStores, AreAfterForgettingAsIfTheTripHadNeverCome) {
     EXPECT_EQ(states_of(store), states_of(filled("chosen.gpkg", 0, chosen_trips(numbers))));
 }
 
-TEST(LimitedStores, KeepTheirLimitWhenCarsAreCalibrated) {
+TEST_F(LimitedStores, KeepTheirLimitWhenCarsAreCalibrated) {
     auto store = filled("calibrated.gpkg", max_trips, all_trips());
     store.maintenance.calibrate({});
-    EXPECT_EQ(RoadStore::open(test_folder() / "calibrated.gpkg").settings().max_trips_per_car_month,
+    EXPECT_EQ(RoadStore::open(folder_ / "calibrated.gpkg").settings().max_trips_per_car_month,
               max_trips);
-    std::size_t passes = 0;
+    std::int32_t passes = 0;
     store.visit({}, [&](const SegmentRecord& record) {
-        passes = std::max<std::size_t>(passes, record.state ? record.state->passes : 0);
+        passes = std::max(passes, record.state ? record.state->passes : 0);
     });
-    EXPECT_EQ(passes, 12U);
+    EXPECT_EQ(passes, 12);
 }
 
 } // namespace
