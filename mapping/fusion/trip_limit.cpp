@@ -1,19 +1,16 @@
 #include "mapping/fusion/trip_limit.hpp"
 
-#include <chrono>
+#include "mapping/fusion/utc_month.hpp"
+
 #include <limits>
+#include <optional>
 
 namespace macadam {
 namespace {
 
-/// Months since the year 0; a number of its own for undated passes.
+/// Begin of the month of a pass; a number of its own if it is undated.
 std::int64_t month_of(const std::optional<std::int64_t>& utc_ms) {
-    using namespace std::chrono;
-    if (!utc_ms) {
-        return std::numeric_limits<std::int64_t>::min();
-    }
-    const year_month_day day{floor<days>(sys_time<milliseconds>{milliseconds{*utc_ms}})};
-    return 12 * std::int64_t{int{day.year()}} + unsigned{day.month()};
+    return utc_ms ? month_begin_ms(*utc_ms) : std::numeric_limits<std::int64_t>::min();
 }
 
 } // namespace

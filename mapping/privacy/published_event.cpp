@@ -1,5 +1,6 @@
 #include "mapping/privacy/published_event.hpp"
 
+#include "mapping/fusion/utc_month.hpp"
 #include "mapping/privacy/published_state.hpp"
 
 #include <cstdint>

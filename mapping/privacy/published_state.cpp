@@ -1,5 +1,7 @@
 #include "mapping/privacy/published_state.hpp"
 
+#include "mapping/fusion/utc_month.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <set>

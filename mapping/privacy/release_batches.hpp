@@ -51,8 +51,4 @@ struct Release {
 /// enough aged cars alone, no batch is formed and all passes stay pending.
 Release release(std::span<const PendingPass> pending, const ReleaseRule& rule);
 
-/// Returns the start of the month of a time, UTC.
-std::int64_t month_begin_ms(std::int64_t utc_ms);
-std::int64_t next_month_ms(std::int64_t utc_ms); ///< start of the following month
-
 } // namespace macadam

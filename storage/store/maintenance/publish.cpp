@@ -1,5 +1,5 @@
 #include "estimator/common/error.hpp"
-#include "mapping/privacy/release_batches.hpp"
+#include "mapping/fusion/utc_month.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/store_version.hpp"
 #include "storage/store/maintenance/store_maintenance.hpp"

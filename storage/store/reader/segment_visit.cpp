@@ -1,7 +1,7 @@
 #include "estimator/common/error.hpp"
+#include "mapping/fusion/utc_month.hpp"
 #include "mapping/geometry/antimeridian.hpp"
 #include "mapping/geometry/area.hpp"
-#include "mapping/privacy/release_batches.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
 #include "storage/store/reader/pass_choice.hpp"

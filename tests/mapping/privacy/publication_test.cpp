@@ -1,3 +1,4 @@
+#include "mapping/fusion/utc_month.hpp"
 #include "mapping/privacy/drive_ends.hpp"
 #include "mapping/privacy/network_blocks.hpp"
 #include "mapping/privacy/published_state.hpp"
