@@ -137,8 +137,9 @@ private:
     void collect_drives(const Candidate& candidate) {
         const double length_m = image_->settings.segment_length_m;
         for (const auto& pass : candidate.trip->passes) {
+            const auto segment = rows_->row_of(pass.segment);
             const auto chunk = rows_->row_of(chunk_of(pass.segment, length_m));
-            const auto offset = static_cast<std::uint32_t>(rows_->row_of(pass.segment) - chunk);
+            const auto offset = static_cast<std::uint32_t>(segment - chunk);
             drives_[{chunk, candidate.row, drive_number(pass)}].passes.push_back({offset, pass});
             chunks_.insert(chunk);
         }
