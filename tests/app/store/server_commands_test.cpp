@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 
 class ServerCommands : public ::testing::Test {
 protected:
-    Run run_on(const std::string& store, std::vector<std::string> words) {
+    macadam::testing::Run run_on(const std::string& store, std::vector<std::string> words) {
         words.insert(words.begin() + 1, store);
         return run_macadam(words);
     }
