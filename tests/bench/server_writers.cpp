@@ -45,7 +45,7 @@ struct DrivenTrip {
                 traces.push_back({.chunk = chunk,
                                   .drive = 0,
                                   .first_m = 0,
-                                  .iri = std::vector<RoughnessCode>(500),
+                                  .iri = std::vector<RoughnessCode>(130),
                                   .left = {},
                                   .place_sd_mm = 900});
                 for (std::size_t i = 0; i < traces.back().iri.size(); ++i) {
