@@ -80,7 +80,9 @@ WorkedJobs import_jobs(ImportStore& store,
                              }
                          }
                          if (options.tell) {
-                             options.tell(report);
+                             auto told = report; // where the log lay meanwhile is no matter
+                             told.file = fs::path{report.file}.lexically_relative(folder).string();
+                             options.tell(told);
                          }
                      });
     WorkedJobs worked;
