@@ -7,8 +7,9 @@
 #include "app/pipeline/estimation_options.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "app/query/section_options.hpp"
+#include "app/query/section_query.hpp"
 #include "app/serve/api_server.hpp"
-#include "storage/surveys/section_file.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -77,11 +78,12 @@ TripReception parse_reception(const Arguments& arguments) {
     return reception;
 }
 
-/// Parses the sections, whose file is read now, so that an invalid one is refused at once.
-std::optional<SectionOptions> parse_served_sections(const Arguments& arguments) {
+/// Parses the sections, and cuts them once, so that an invalid file is refused at once.
+std::optional<SectionOptions> parse_served_sections(const Arguments& arguments,
+                                                    const std::filesystem::path& store) {
     auto sections = parse_sections(arguments, false);
     if (sections) {
-        static_cast<void>(read_sections(*sections->sections));
+        each_section(StoreReader::open(store), *sections, {}, [](const NamedSection&) {});
     }
     return sections;
 }
@@ -118,7 +120,7 @@ void run_serve(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     tell_publication(StoreReader::open(file), console);
     const auto reception = parse_reception(arguments);
-    const auto sections = parse_served_sections(arguments);
+    const auto sections = parse_served_sections(arguments, file);
     serve_database(file, Audience::anyone, config, address, console, started, reception, sections);
 }
 

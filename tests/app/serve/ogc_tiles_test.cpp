@@ -236,7 +236,7 @@ TEST(OgcTiles, AreTakenDownOnceOnlyPublicationsMayBeShown) {
         std::this_thread::sleep_for(std::chrono::milliseconds{100});
     }
     EXPECT_NE(tile_json_of(served).at("bounds"), bounds); // the empty map's
-    EXPECT_EQ(served.ask("/roads.pmtiles").status, 404);
+    EXPECT_EQ(served.ask("/site.json").status, 404);
 }
 
 } // namespace

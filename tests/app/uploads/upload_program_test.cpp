@@ -226,6 +226,26 @@ TEST(Server, ShowsNoFolderThatItCannotClose) {
     EXPECT_THAT(run.err, HasSubstr("--only-with-token is for a database"));
 }
 
+TEST(Server, RefusesSectionsThatItCannotCut) {
+    const World world;
+    const auto refused = [&](const std::string& served, const std::string& table) {
+        write_file(world.folder / "sections.csv", table);
+        return run_macadam({"serve",
+                            served,
+                            "--sections",
+                            (world.folder / "sections.csv").string(),
+                            "--listen",
+                            "127.0.0.1:0"});
+    };
+    const auto unknown = refused(world.store, "way_id,from_m,to_m\n99,0,20\n");
+    EXPECT_EQ(unknown.exit_status, 1);
+    EXPECT_THAT(unknown.err, HasSubstr("sections.csv:2: the network has no way '99'"));
+    EXPECT_EQ(refused(world.store, "way,from\n1,0\n").exit_status, 1);
+    const auto folder = refused(fresh_folder().string(), "way_id\n1\n");
+    EXPECT_EQ(folder.exit_status, 2);
+    EXPECT_THAT(folder.err, HasSubstr("--sections is for a database"));
+}
+
 TEST(Upload, IsForgottenAlsoWhileItWaits) {
     const World world;
     const auto before = world.digest();
