@@ -54,9 +54,8 @@ class Templates:
                            " FROM macadam.drive ORDER BY trip, cell, chunk, drive")
             for trip, *drive in cursor.fetchall():
                 self.drives.setdefault(trip, []).append(drive)
-            cursor.execute("TRUNCATE macadam.drive, macadam.event, macadam.event_search, macadam.row_reason,"
-                           " macadam.segment_state, macadam.chunk_state, macadam.state_change, macadam.audit,"
-                           " macadam.segment_dirty, macadam.chunk_dirty, macadam.trip, macadam.import_note")
+            cursor.execute("TRUNCATE macadam.trip, macadam.audit, macadam.segment_state, macadam.chunk_state,"
+                           " macadam.chunk_dirty CASCADE")
         connection.commit()
 
     def __len__(self):
@@ -95,8 +94,9 @@ def store(connection, templates, number):
                     "INSERT INTO macadam.drive (trip, cell, chunk, drive, passes, body, first_m, place_sd_mm, iri,"
                     " iri_left) VALUES (%s, %s, %s, %s, %s, %s, %s, %s, %s, %s)", (row, *drive))
             for chunk in sorted({drive[1] for drive in drives}):
-                cursor.execute("INSERT INTO macadam.chunk_dirty AS dirty (chunk) VALUES (%s)"
-                               " ON CONFLICT (chunk) DO UPDATE SET marks = dirty.marks + 1", (chunk,))
+                cursor.execute("INSERT INTO macadam.chunk_dirty AS dirty (chunk, since_ms) VALUES (%s, %s)"
+                               " ON CONFLICT (chunk) DO UPDATE SET marks = dirty.marks + 1",
+                               (chunk, int(1000 * time.time())))
     del connection.notices[:]
     connection.commit()
     if any("WARNING" in notice for notice in connection.notices):
