@@ -24,6 +24,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 from backup import restored_to_a_moment  # noqa: E402
+from imports import Imports  # noqa: E402
 from ledger import Clients, Templates, breaches, store  # noqa: E402
 from nemesis import Nemesis, haunt  # noqa: E402
 from nodes import Cluster, is_alive, leave_init_behind, pid_in, run, send  # noqa: E402
@@ -140,9 +141,16 @@ class Trial:
         self.cluster = Cluster(self.folder / "state", isolated=os.environ[INSIDE] == "isolated")
         self.breaches = []
 
-    def macadam(self, *words):
+    def start(self, *words, timeout):
         environment = {**os.environ, "PGPASSFILE": str(self.cluster.folder / "pgpass"), "HOME": str(self.folder)}
-        return run(self.arguments.program, *words, env=environment, timeout=600, cwd=self.folder)
+        return subprocess.run([self.arguments.program, *words], env=environment, timeout=timeout, cwd=self.folder,
+                              capture_output=True, text=True, check=False)
+
+    def macadam(self, *words):
+        done = self.start(*words, timeout=600)
+        if done.returncode != 0:
+            raise RuntimeError(f"macadam {' '.join(words)}: exit {done.returncode}: {done.stderr[-2000:]}")
+        return done.stdout
 
     def psql(self, address, *words, **options):
         environment = {"PATH": os.environ["PATH"], "PGPASSFILE": str(self.cluster.folder / "pgpass")}
@@ -200,13 +208,16 @@ class Trial:
     def disturbed(self, roads):
         templates = self.new_ledger("ledger", roads)
         clients = Clients(self.cluster, "ledger", templates, self.folder / "history.jsonl", self.arguments.seed)
+        imports = Imports(self, "imports")
         nemesis = Nemesis(self.cluster, self.arguments.seed, say)
         clients.start()
+        imports.thread.start()
         time.sleep(3)
         haunt(nemesis, time.monotonic() + 60 * self.arguments.minutes)
         say(f"whole again {self.cluster.wait_until_whole(120):.0f} s after the last fault")
         time.sleep(2)
         clients.stop()
+        imports.stop()
         connection = self.cluster.connect("ledger")
         wrong, found = breaches(connection, clients)
         connection.close()
@@ -223,6 +234,10 @@ class Trial:
             self.expect(stall <= MAX_STALL_S, f"writes went on within {MAX_STALL_S} s, with nobody touching anything")
         self.expect(self.digest("ledger") == self.replayed(roads, found, templates),
                     "the digest is that of an undisturbed replay")
+        wrong = imports.breaches()
+        say(f"macadam import: {imports.answers} times acknowledged, {len(imports.acknowledged)} trips,"
+            f" {imports.failures} failed; {'; '.join(wrong) or 'no breach'}")
+        self.expect(imports.answers > 0 and not wrong, "what macadam imported is there once, with the digest of a file")
         return templates
 
     def without_synchronous_commits(self, roads):
