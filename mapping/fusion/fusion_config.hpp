@@ -31,8 +31,8 @@ struct FusionConfig {
     /// states much, but not all unknown cars are wrong alike (docs/method/fusion.md). Passes with
     /// lateral acceleration alone have no limit, because its ratio to the vertical one is common to
     /// all cars; nor have those of the published filter (FusionInput::by_filter).
-    double max_common_relative_sd = 0.13;
-    double max_common_sd_mm_per_m = 0.15;
+    double max_common_relative_sd = 0.07;
+    double max_common_sd_mm_per_m = 0.08;
 
     double trip_relative_sd = 0.02;    ///< common to all passes of a trip: load, tyres, weather
     double rest_relative_sd = 0.07746; ///< of each pass: wander, speed; 0.08 including trips

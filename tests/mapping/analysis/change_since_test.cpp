@@ -130,18 +130,18 @@ TEST(ChangeSince, FindsMostOfAKnownChangeAndHardlyAnythingElse) {
 
 TEST(ChangeSince, TakesWhatAllCarsShareOutOfTheNoise) {
     // 100 cars whose passes hardly scatter: nearly all of the variance is common.
-    auto state = reading(2, 0.3);
+    auto state = reading(2, 0.15);
     state.passes = state.vehicles = 100;
     SegmentRecord record{};
     record.state = state;
-    EXPECT_NEAR(std::sqrt(common_variance(state, {})), 0.3, 0.005);
-    EXPECT_LT(difference_of(record, record, {}).sd, 0.06); // not 0.3 sqrt(2) = 0.42
+    EXPECT_NEAR(std::sqrt(common_variance(state, {})), 0.15, 0.005);
+    EXPECT_LT(difference_of(record, record, {}).sd, 0.06); // not 0.15 sqrt(2) = 0.21
 }
 
 TEST(ChangeSince, TakesNoMoreOutOfUnknownCarsThanTheyShare) {
     auto state = reading(2, 0.6);
     state.passes = state.vehicles = 100;
-    const double shared = std::hypot(0.13 * 2, 0.15); // the limits of FusionConfig
+    const double shared = std::hypot(0.07 * 2, 0.08); // the limits of FusionConfig
     EXPECT_NEAR(std::sqrt(common_variance(state, {})), shared, 1e-9);
 }
 

@@ -58,13 +58,13 @@ TEST(FusionOfReferences, OfOneAloneIsWhatItStates) {
 }
 
 TEST(FusionOfReferences, MovesTheLevelAsTheStandardDeviationsSay) {
-    // Nine cars at 2000, each sd 300 of which half the variance is alike in all, and a reference at
+    // Nine cars at 2000, each sd 200 of which half the variance is alike in all, and a reference at
     // 2120, sd 120: two readings of one thing whose variances are known in closed form. What is
     // relative is relative to the median, 2000.
-    auto passes = cars(9, 2000, 300);
+    auto passes = cars(9, 2000, 200);
     passes.push_back(reference(2120, 120));
-    const double of_each = 0.5 * 300 * 300 + std::pow(0.08 * 2000, 2) + 50 * 50;
-    const double of_cars = of_each / 9 + 0.5 * 300 * 300;
+    const double of_each = 0.5 * 200 * 200 + std::pow(0.08 * 2000, 2) + 50 * 50;
+    const double of_cars = of_each / 9 + 0.5 * 200 * 200;
     const double of_reference = std::pow(120 * 2000.0 / 2120, 2);
     const double share = of_cars / (of_cars + of_reference);
 
@@ -77,10 +77,10 @@ TEST(FusionOfReferences, MovesTheLevelAsTheStandardDeviationsSay) {
 
 TEST(FusionOfReferences, IsNotOutvotedByManyCarsOfOneMind) {
     // A thousand cars that share an error of 10 % know no more than a tenth.
-    auto passes = cars(1000, 2200, 300);
+    auto passes = cars(1000, 2200, 220);
     passes.push_back(reference(2000, 60));
     const auto state = fuse(passes, believing());
-    const double of_cars = 0.5 * 300 * 300;
+    const double of_cars = 0.5 * 220 * 220;
     const double of_reference = std::pow(60 * 2200.0 / 2000, 2);
     EXPECT_NEAR(state.iri_um, 2000 + 200 * of_reference / (of_cars + of_reference), 3);
     EXPECT_LT(std::abs(fuse(passes, {}).iri_um - 2000), 60); // nor under the usual tails

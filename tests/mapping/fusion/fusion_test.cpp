@@ -52,35 +52,35 @@ TEST(Fusion, OfOnePassIsThatPassWithTheScatterBetweenPasses) {
 }
 
 TEST(Fusion, OfEqualPassesOfManyCarsShrinksToWhatAllCarsShare) {
-    const auto state = fuse(of_many_cars(std::vector<IriUm>(9, 2000), 300), {});
+    const auto state = fuse(of_many_cars(std::vector<IriUm>(9, 2000), 200), {});
     EXPECT_EQ(state.iri_um, 2000);
-    const double of_each = agreed(9) * std::hypot(300 * std::sqrt(0.5), between_um(2000));
-    EXPECT_NEAR(state.sd_um, std::hypot(of_each / 3, 300 * std::sqrt(0.5)), 0.5);
+    const double of_each = agreed(9) * std::hypot(200 * std::sqrt(0.5), between_um(2000));
+    EXPECT_NEAR(state.sd_um, std::hypot(of_each / 3, 200 * std::sqrt(0.5)), 0.5);
     EXPECT_EQ(state.vehicles, 9);
 }
 
 TEST(Fusion, ShrinksTheSdWhereCarsAgreeButNotWherePassesOfOneCarDo) {
     const std::vector<IriUm> readings{1900, 1950, 2000, 2050, 2100};
-    auto passes = of_many_cars(readings, 300);
-    const double of_car = std::hypot(300 * std::sqrt(0.5), between_um(2000));
+    auto passes = of_many_cars(readings, 200);
+    const double of_car = std::hypot(200 * std::sqrt(0.5), between_um(2000));
     double strangeness = 0;
     for (const auto iri_um : readings) {
         strangeness += std::pow((iri_um - 2000) / of_car, 2);
     }
     const double factor = std::sqrt((12 + strangeness) / (12 + 4));
     EXPECT_NEAR(fuse(passes, {}).sd_um,
-                std::hypot(factor * of_car / std::sqrt(5), 300 * std::sqrt(0.5)),
+                std::hypot(factor * of_car / std::sqrt(5), 200 * std::sqrt(0.5)),
                 3); // the t distribution weighs them a little
     for (auto& input : passes) {
         input.vehicle = 1;
     }
-    EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(300, between_um(2000) / std::sqrt(5)), 3);
+    EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(200, between_um(2000) / std::sqrt(5)), 3);
 }
 
 TEST(Fusion, OfManyUnknownCarsShrinksToWhatUnknownCarsShare) {
-    // Half of (35 %)^2 would be (25 %)^2, but all unknown cars together err by 13 % and 0.15 mm/m.
+    // Half of (35 %)^2 would be (25 %)^2, but all unknown cars together err by 7 % and 0.08 mm/m.
     const auto state = fuse(of_many_cars(std::vector<IriUm>(400, 2000), 700), {});
-    const double common_um = std::hypot(0.13 * 2000, 150);
+    const double common_um = std::hypot(0.07 * 2000, 80);
     const double of_each =
         agreed(400) * std::hypot(std::sqrt(700 * 700 - common_um * common_um), between_um(2000));
     EXPECT_NEAR(state.sd_um, std::hypot(common_um, of_each / 20), 0.5);
@@ -100,7 +100,7 @@ TEST(Fusion, LetsOnePassOfThePublishedFilterWidenNoOther) {
     auto passes = of_many_cars(std::vector<IriUm>(100, 2000), 700);
     const auto limited_um = fuse(passes, {}).sd_um;
     passes.front().by_filter = true;
-    EXPECT_LT(fuse(passes, {}).sd_um, 1.02 * limited_um); // one of a hundred, by 495 against 300 um
+    EXPECT_LT(fuse(passes, {}).sd_um, 1.03 * limited_um); // one of a hundred, by 495 against 161 um
     for (auto& input : passes) {
         input.by_filter = true;
     }
@@ -108,12 +108,12 @@ TEST(Fusion, LetsOnePassOfThePublishedFilterWidenNoOther) {
 }
 
 TEST(Fusion, OfOneCarThatChangedDoesNotAgreeWithItself) {
-    auto passes = of_many_cars(std::vector<IriUm>(40, 2000), 300);
+    auto passes = of_many_cars(std::vector<IriUm>(40, 2000), 200);
     for (std::size_t i = 0; i < passes.size(); ++i) {
         passes[i].vehicle = 7;
         passes[i].period = static_cast<std::uint32_t>(i % 2);
     }
-    const double of_periods = std::hypot(300 * std::sqrt(0.5), 300 * std::sqrt(0.5) / std::sqrt(2));
+    const double of_periods = std::hypot(200 * std::sqrt(0.5), 200 * std::sqrt(0.5) / std::sqrt(2));
     EXPECT_NEAR(fuse(passes, {}).sd_um, of_periods, 0.05 * of_periods);
 }
 
