@@ -181,5 +181,16 @@ TEST_F(Init, MakesADatabaseThatRefusesClassesOfRoadsThatDoNotExist) {
                           "residential?"));
 }
 
+TEST_F(Init, TakesALimitOfTheTripsThatAreFusedOnceAndForAll) {
+    write_file(at("road.osm"), osm_of_way("<tag k='highway' v='residential'/>"));
+    EXPECT_THAT(refusal({"--network", at("road.osm"), "--max-trips-per-car-month", "0"}, 2),
+                HasSubstr("--max-trips-per-car-month is 0, expected 1 to 1000"));
+    init({"--network", at("road.osm"), "--max-trips-per-car-month", "3"});
+    EXPECT_THAT(run_macadam({"info", store_}).out,
+                HasSubstr("fused       at most 3 trips of a car over a segment in a month\n"));
+    EXPECT_THAT(refusal({"--update", at("road.osm"), "--max-trips-per-car-month", "4"}, 2),
+                HasSubstr("--max-trips-per-car-month cannot be changed by --update"));
+}
+
 } // namespace
 } // namespace macadam::testing
