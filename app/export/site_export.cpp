@@ -316,8 +316,8 @@ void export_site(const StoreReader& store,
     write_names(names, files);
     write_worst(store, records, files);
     files.write("totals.json", totals.json());
-    for (const auto& language : languages()) {
-        files.write(fmt::format("words/{}.json", language.code), words_json(language));
+    for (const auto* const language : languages()) {
+        files.write(fmt::format("words/{}.json", language->code), words_json(*language));
     }
     const bool has_own_tiles = plan.served_version.empty();
     if (has_own_tiles &&

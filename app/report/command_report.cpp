@@ -52,10 +52,26 @@ MapStyle parse_style(const Arguments& arguments, const MapLook& look) {
     return style;
 }
 
+/// Returns the language of a code, or of a catalogue by its path.
+const Language& language_named(const std::string& name) {
+    if (const auto* const found = language(name)) {
+        return *found;
+    }
+    if (std::filesystem::path{name}.extension() == ".po") {
+        return language_from(name);
+    }
+    std::vector<std::string> codes;
+    for (const auto* const each : languages()) {
+        codes.push_back(each->code);
+    }
+    throw UsageError{fmt::format(
+        "--language is '{}', expected {} or the path of a .po file", name, fmt::join(codes, ", "))};
+}
+
 Localisation wording_of(const ChosenLook& chosen) {
     Localisation wording;
     if (chosen.language) {
-        wording.language = language(*chosen.language);
+        wording.language = &language_named(*chosen.language);
     }
     wording.unit = chosen.look.unit == "in/mi" ? IriUnit::in_per_mi : IriUnit::mm_per_m;
     return wording;
@@ -293,7 +309,12 @@ constexpr std::array output_options{
     Option{"--compare-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}};
 constexpr std::array page_options{
     preferred_units_option,
-    preference(one_of("en|de", in_group("appearance", {"--language", "CODE", "en or de.", "en"}))),
+    preference(in_group("appearance",
+                        {"--language",
+                         "CODE",
+                         "en, de, hu or another catalogue: a code of share/macadam/languages, or "
+                         "the path of a .po file.",
+                         "en"})),
     preference(one_of(
         "A4|letter",
         in_group("appearance", {"--paper", "SIZE", "Paper size of a .pdf: A4 or letter.", "A4"}))),

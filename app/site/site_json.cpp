@@ -39,15 +39,27 @@ const Columns<SegmentMonth> month_columns{
 };
 // clang-format on
 
+/// Returns the plural form of each number from 0 to 199, a digit each: those of larger numbers
+/// depend on their last two digits.
+std::string plural_forms(const PluralRule& rule) {
+    constexpr std::size_t numbers = 200;
+    std::string digits;
+    for (std::size_t n = 0; n < numbers; ++n) {
+        digits += std::to_string(rule.form(n));
+    }
+    return digits;
+}
+
 /// Beginnings of the keys of messages that the page shares with the report.
-constexpr std::array<std::string_view, 10> shared_keys{"site.",
+constexpr std::array<std::string_view, 11> shared_keys{"site.",
+                                                       "locale.",
                                                        "class.",
                                                        "kind.",
                                                        "unnamed.",
                                                        "heading.",
                                                        "range.",
-                                                       "cars.",
-                                                       "trips.",
+                                                       "cars",
+                                                       "trips",
                                                        "title",
                                                        "period"};
 
@@ -83,12 +95,15 @@ std::string worst_json(std::span<const WorstSection> sections,
 
 std::string words_json(const Language& language) {
     JsonObject object;
-    object.add("language", std::string{language.code});
-    object.add("decimal_mark", std::string{language.decimal_mark});
-    object.add("day", std::string{language.day});
-    for (const auto& [key, text] : language.messages) {
-        if (std::ranges::any_of(shared_keys, [&](auto begin) { return key.starts_with(begin); })) {
-            object.add(key, std::string{text});
+    object.add("language", language.code);
+    object.add("plural_forms", plural_forms(language.plural));
+    for (const auto& [key, forms] : language.messages) {
+        const auto is_shared = [&](auto begin) { return key.starts_with(begin); };
+        if (std::ranges::none_of(shared_keys, is_shared)) {
+            continue;
+        }
+        for (std::size_t i = 0; i < forms.size(); ++i) {
+            object.add(forms.size() == 1 ? key : fmt::format("{}.{}", key, i), forms[i]);
         }
     }
     return object.text();

@@ -83,8 +83,8 @@ manifest_json(const StoreReader& store, const SiteManifest& manifest, const Site
     const auto publication =
         store.shows_published_alone() ? store.latest_publication() : std::nullopt;
     std::vector<std::string> codes;
-    for (const auto& each : languages()) {
-        codes.emplace_back(each.code);
+    for (const auto* const each : languages()) {
+        codes.push_back(each->code);
     }
     return JsonObject{}
         .add("format", "macadam-site 1")

@@ -228,11 +228,11 @@ std::string days_after_text(const ReferenceReport& report, const Localisation& s
 
 Document reference_document(const ReferenceReport& report) {
     const auto& language = *report.wording.language;
-    Document document{.language = std::string{language.code},
+    Document document{.language = language.code,
                       .title = report.title,
                       .subtitle = subtitle_of(report),
                       .running_head = report.title,
-                      .page_of = std::string{find_message(language, "page")->text},
+                      .page_of = *find_message(language, "page"),
                       .day = "",
                       .keys = {},
                       .sections = {},

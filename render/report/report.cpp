@@ -10,11 +10,11 @@ Document report_document(const Report& report) {
     assert(report.classes != nullptr && report.colours.size() == report.classes->classes.size());
     const auto& say = report.wording;
     const auto period = say.period(report.period.first, report.period.last);
-    Document document{.language = std::string{say.language->code},
+    Document document{.language = say.language->code,
                       .title = report.title,
                       .subtitle = subtitle_of(report),
                       .running_head = report.title + (period.empty() ? "" : " · " + period),
-                      .page_of = std::string{find_message(*say.language, "page")->text},
+                      .page_of = *find_message(*say.language, "page"),
                       .day = report.period.last,
                       .keys = key_numbers(report),
                       .sections = {},

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace macadam {
 
 using namespace document;
@@ -60,7 +62,9 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
                 {say("stretch.mean",
                      {{"interval", say.interval(stretch.mean)},
                       {"length", say.short_length(stretch.length_m)}})},
-                {say(stretch.median_passes == 1 ? "stretch.phone.one" : "stretch.phone.other",
+                {say.counted(
+                     "stretch.phone",
+                     static_cast<std::size_t>(std::lround(stretch.median_passes)),
                      {{"worst", say.iri(stretch.worst_iri)},
                       {"passes", passes},
                       {"cars", say.counted("cars", static_cast<std::size_t>(stretch.vehicles))}}),

@@ -22,7 +22,15 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 4> keys{"unit", "language", "theme", "colours"};
 constexpr std::array<std::string_view, 6> ground_colours{
     "page", "ground", "border", "ink", "quiet_ink", "casing"};
-constexpr std::array<std::string_view, 2> languages{"en", "de"};
+
+/// Returns true for letters, digits and hyphens, which lead to no file of another folder.
+bool is_language_code(std::string_view code) {
+    constexpr std::size_t max_letters = 35; // BCP 47
+    return !code.empty() && code.size() <= max_letters && std::ranges::all_of(code, [](char c) {
+        return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') ||
+               c == '-';
+    });
+}
 
 /// Descriptor of an open file.
 class OpenFile {
@@ -100,7 +108,10 @@ DatabaseAppearance parse_appearance(std::string_view text, const std::string& na
         appearance.unit = word_among(top, "unit", iri_unit_words);
     }
     if (top.has("language")) {
-        appearance.language = word_among(top, "language", languages);
+        appearance.language = top.text("language");
+        if (!is_language_code(*appearance.language)) {
+            top.refuse("language", "a code such as \"de\"");
+        }
     }
     if (top.has("theme")) {
         appearance.theme = word_among(top, "theme", theme_words);

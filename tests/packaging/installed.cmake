@@ -27,6 +27,9 @@ foreach(made maps/map.png maps/roads.fgb moved/share/man/man1/macadam-import.1.g
     endif()
 endforeach()
 
+# So are the words of every language.
+run_checked("${program}" report "${folder}/maps/roads.gpkg" -o "${folder}/maps/report.html" --language hu)
+
 # The page of a site is found wherever the tree stands, if the build has it.
 if(EXISTS "${folder}/moved/share/macadam/site")
     run_checked("${program}" export "${folder}/maps/roads.gpkg" -o "${folder}/maps/site" --format site)

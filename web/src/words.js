@@ -12,14 +12,16 @@ export async function speak(data, language, chosenUnit) {
 }
 
 export function w(key, values = {}) {
-  const text = words[key] ?? words[`${key}.${values.count === 1 ? 'one' : 'other'}`];
+  const text = words[key] ?? words[`${key}.${plural(values.count)}`];
   if (text === undefined) return key;
   return text.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? (name === 'count' ? whole_(values[name]) : values[name]) : whole));
 }
 export const knows = (key) => key in words;
 
-const mark = (text) => text.replace('.', words.decimal_mark ?? '.');
-const whole_ = (value) => (value >= 10_000 ? String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u202f') : String(Math.round(value)));
+const plural = (count) => words.plural_forms?.[count < 200 ? count : 100 + (count % 100)] ?? 0;
+const mark = (text) => text.replace('.', words['locale.decimal_mark'] ?? '.');
+const whole_ = (value) => (value >= 10_000
+  ? String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, words['locale.group_mark'] ?? '\u202f') : String(Math.round(value)));
 
 export const number = (value, decimals) => mark(value.toFixed(decimals));
 export const isUs = () => unit === 'in/mi';
@@ -36,7 +38,7 @@ export const metres = (m) => (isUs() ? `${Math.round(m / 0.3048)} ft` : `${Math.
 export function day(iso) {
   if (!iso) return '–';
   const [year, month, date] = iso.split('-');
-  return date ? (words.day ?? '{year}-{month}-{day}').replace('{year}', year).replace('{month}', month).replace('{day}', date) : iso;
+  return date ? (words['locale.day'] ?? '{year}-{month}-{day}').replace('{year}', year).replace('{month}', month).replace('{day}', date) : iso;
 }
 export function month(iso) {
   return new Intl.DateTimeFormat(words.language, { month: 'short', year: 'numeric', timeZone: 'UTC' }).format(new Date(`${iso}-01T00:00:00Z`));

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
 
-constexpr std::string_view narrow_blank = "\u202F";
 constexpr std::string_view dash = "–";
 constexpr std::string_view minus = "\u2212";
 
@@ -51,19 +51,18 @@ std::string Localisation::operator()(std::string_view key, const Values& values)
 
 std::string Localisation::or_else(const std::string& key, std::string_view text) const {
     const auto* const message = find_message(*language, key);
-    return std::string{message != nullptr ? message->text : text};
+    return std::string{message != nullptr ? *message : text};
 }
 
 std::string Localisation::counted(std::string_view key, std::size_t number, Values values) const {
     values.emplace_back("count", count(number));
-    return say(
-        *language, fmt::format("{}.{}", key, language->plural(number)), with_units(*this, values));
+    return say(*language, key, with_units(*this, std::move(values)), number);
 }
 
 std::string Localisation::number(double value, int decimals) const {
     auto text = fmt::format("{:.{}f}", value, decimals);
     if (const auto point = text.find('.'); point != std::string::npos) {
-        text.replace(point, 1, language->decimal_mark);
+        text.replace(point, 1, *find_message(*language, "locale.decimal_mark"));
     }
     return text;
 }
@@ -85,16 +84,17 @@ std::string Localisation::whole(double value) const {
 std::string Localisation::shortest(double value) const {
     auto text = fmt::format("{:g}", value);
     if (const auto point = text.find('.'); point != std::string::npos) {
-        text.replace(point, 1, language->decimal_mark);
+        text.replace(point, 1, *find_message(*language, "locale.decimal_mark"));
     }
     return text;
 }
 
 std::string Localisation::count(std::size_t count) const {
     auto text = fmt::format("{}", count);
+    const auto& mark = *find_message(*language, "locale.group_mark");
     if (text.size() >= 5) {
         for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3) {
-            text.insert(static_cast<std::size_t>(i), narrow_blank);
+            text.insert(static_cast<std::size_t>(i), mark);
         }
     }
     return text;
@@ -127,10 +127,12 @@ std::string Localisation::percent(double part, double whole) const {
         return std::string{dash};
     }
     const double percent = 100 * part / whole;
-    if (percent <= 0) {
-        return "0 %";
-    }
-    return percent < 0.1 ? "< " + number(0.1, 1) + " %" : number(percent, 1) + " %";
+    const auto said = [&](const std::string& value) {
+        return say(*language, "locale.percent", {{"number", value}});
+    };
+    return percent <= 0    ? said("0")
+           : percent < 0.1 ? "< " + said(number(0.1, 1))
+                           : said(number(percent, 1));
 }
 
 std::string Localisation::day(std::string_view iso) const {
@@ -138,14 +140,11 @@ std::string Localisation::day(std::string_view iso) const {
     if (iso.size() != iso_letters) {
         return std::string{iso};
     }
-    std::string text{language->day};
-    const auto put = [&](std::string_view place, std::string_view value) {
-        text.replace(text.find(place), place.size(), value);
-    };
-    put("{year}", iso.substr(0, 4));
-    put("{month}", iso.substr(5, 2));
-    put("{day}", iso.substr(8, 2));
-    return text;
+    return say(*language,
+               "locale.day",
+               {{"year", std::string{iso.substr(0, 4)}},
+                {"month", std::string{iso.substr(5, 2)}},
+                {"day", std::string{iso.substr(8, 2)}}});
 }
 
 std::string Localisation::period(std::string_view first_day, std::string_view last_day) const {

@@ -16,7 +16,7 @@ enum class IriUnit { mm_per_m, in_per_mi };
 /// Formatting of words, numbers, days and roughness in a report. Input values are mm/m in every
 /// unit.
 struct Localisation {
-    const Language* language = &languages().front();
+    const Language* language = &english();
     IriUnit unit = IriUnit::mm_per_m;
 
     std::string operator()(std::string_view key, const Values& values = {}) const;
@@ -24,7 +24,7 @@ struct Localisation {
     /// Returns the message with that key, or the given text, for names that come from data.
     std::string or_else(const std::string& key, std::string_view text) const;
 
-    /// Returns the message in the plural form of the number, with the number as {count}.
+    /// Returns the message in the plural form of the number, which is its {count}.
     std::string counted(std::string_view key, std::size_t count, Values values = {}) const;
 
     std::string number(double value, int decimals) const;

@@ -49,6 +49,8 @@ TEST(DatabaseAppearance, RefusesAllOtherKeys) {
     EXPECT_THAT(refusal_of_text("[colours]\nclass = \"#000000\"\n"),
                 HasSubstr("macadam.toml:2: unknown key"));
     EXPECT_THAT(refusal_of_text("unit = \"furlong\"\n"), HasSubstr("one of mm/m, in/mi"));
+    EXPECT_THAT(refusal_of_text("language = \"/etc/passwd.po\"\n"),
+                HasSubstr("expected a code such as \"de\""));
 }
 
 TEST(DatabaseAppearance, LiesBesideTheDatabaseAndMayBeMissing) {
