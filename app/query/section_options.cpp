@@ -31,18 +31,6 @@ GeoPoint place_in(const std::string& text) {
     return parse_place("--route", {*lat, *lon});
 }
 
-std::optional<std::pair<GeoPoint, GeoPoint>> parse_route(const Arguments& arguments) {
-    const auto places = arguments.values("--route");
-    if (places.empty()) {
-        return std::nullopt;
-    }
-    if (places.size() != 2) {
-        throw UsageError{
-            fmt::format("--route has {} points, expected two: LAT,LON LAT,LON", places.size())};
-    }
-    return std::pair{place_in(places[0]), place_in(places[1])};
-}
-
 /// Parses a length: "100", "100m", "0.5km", "0.1mi".
 std::optional<double> parse_length_m(const Arguments& arguments) {
     constexpr double shortest_m = 1, longest_m = 1e6;
@@ -94,6 +82,18 @@ void expect_none(const Arguments& arguments, bool has_routes) {
 }
 
 } // namespace
+
+std::optional<std::pair<GeoPoint, GeoPoint>> parse_route(const Arguments& arguments) {
+    const auto places = arguments.values("--route");
+    if (places.empty()) {
+        return std::nullopt;
+    }
+    if (places.size() != 2) {
+        throw UsageError{
+            fmt::format("--route has {} points, expected two: LAT,LON LAT,LON", places.size())};
+    }
+    return std::pair{place_in(places[0]), place_in(places[1])};
+}
 
 std::optional<SectionOptions> parse_sections(const Arguments& arguments, bool has_routes) {
     SectionOptions options{.route = has_routes ? parse_route(arguments) : std::nullopt,

@@ -45,6 +45,9 @@ inline constexpr Option exclude_option = rare(in_group(
 inline constexpr Option exclude_radius_option = rare(in_group(
     "sections", {"--exclude-radius", "METRES", "Radius around places without radius_m.", "20"}));
 
+/// Parses --route LAT,LON LAT,LON. \throws UsageError
+std::optional<std::pair<GeoPoint, GeoPoint>> parse_route(const Arguments& arguments);
+
 /// Parses --sections with its modifiers and, for commands that have them, --route and --along.
 /// Returns `std::nullopt` if no sections are requested.
 /// \throws UsageError  for invalid values or combinations.

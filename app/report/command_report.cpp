@@ -109,6 +109,22 @@ bool is_to_standard_output(const Arguments& arguments) {
     return arguments.value("--output") == standard_output;
 }
 
+/// Returns the road of the strip chart, of --route or --way.
+std::optional<StripRoad> parse_strip(const Arguments& arguments) {
+    StripRoad road;
+    road.route = parse_route(arguments);
+    road.best =
+        arguments.flag("--shortest") ? RouteConfig::Best::shortest : RouteConfig::Best::quickest;
+    road.way_id = arguments.integer("--way");
+    if (arguments.flag("--shortest") && !road.route) {
+        throw UsageError{"--shortest requires --route LAT,LON LAT,LON"};
+    }
+    if (road.route && road.way_id) {
+        throw UsageError{"--route and --way cannot be combined, expected one of them"};
+    }
+    return road.route || road.way_id ? std::optional{road} : std::nullopt;
+}
+
 ReportOptions parse_report(const Arguments& arguments, const Console& console) {
     const auto output = page_of(arguments);
     const auto ending = std::filesystem::path{output.value_or("")}.extension().string();
@@ -132,9 +148,11 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
     // One after the other: GCC 12 destroys a nested aggregate twice where a later member's
     // initializer throws.
     const auto pdf = parse_paper(arguments, ending);
+    const auto strip = parse_strip(arguments);
     ReportConfig report{.title = arguments.value("--title").value_or(wording("title")),
                         .worst = parse_worst(arguments),
                         .sections = std::move(sections),
+                        .strip = strip,
                         .filter = std::move(filter),
                         .selection = text_of_filter(arguments),
                         .since_ms = since_ms,
@@ -154,6 +172,8 @@ void refuse_beside_references(const Arguments& arguments) {
                                           "--exclude-radius",
                                           "--classes",
                                           "--compare-since",
+                                          "--route",
+                                          "--shortest",
                                           "--style",
                                           "--grey-below"};
     std::ranges::transform(selection_options, std::back_inserter(refused), &Option::name);
@@ -319,6 +339,13 @@ constexpr std::array page_options{
         "A4|letter",
         in_group("appearance", {"--paper", "SIZE", "Paper size of a .pdf: A4 or letter.", "A4"}))),
     Option{"--worst", "N", "Number of worst sections to list, each with a map.", "20"},
+    in_group("sections",
+             {"--route",
+              "LAT,LON LAT,LON",
+              "Strip chart along the fastest route by car between two points; --way charts a way.",
+              "",
+              true}),
+    in_group("sections", {"--shortest", "", "With --route: the shortest route instead."}),
     sections_option,
     section_length_option,
     homogeneous_option,
@@ -347,6 +374,7 @@ const Command report_command{
         "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
         "  macadam report roads.gpkg -o report.pdf --compare-since 2026-04-01 --language de\n"
         "  macadam report roads.gpkg -o report.html --worst 50 --classes five\n"
+        "  macadam report roads.gpkg -o street.html --way 24935371\n"
         "  macadam report roads.gpkg --against-reference -o reference.html",
     .operands = operands,
     .options = options,

@@ -5,6 +5,8 @@
 #include "app/query/worst_sections_output.hpp"
 #include "app/render/change_map.hpp"
 #include "app/report/report_survey.hpp"
+#include "app/report/strip_pieces.hpp"
+#include "mapping/analysis/repair_need.hpp"
 
 #include "render/scene/colour.hpp"
 #include "storage/networks/network_file.hpp"
@@ -259,6 +261,7 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     WorstSectionConfig poor;
     poor.above_mm_per_m = poor_above(classes);
     auto stretches = worst_sections(roads, survey.measured, poor);
+    sort_by_need(stretches, poor.above_mm_per_m);
 
     Report report;
     report.wording = config.wording;
@@ -290,6 +293,10 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     if (config.sections) {
         report.sections = sections_of(store, *config.sections, config.filter);
     }
+    if (config.strip) {
+        report.strips =
+            route_strips(store, roads, *config.strip, config.filter, classes, config.wording);
+    }
     const auto usage = store.usage();
     report.vehicles = vehicles_of(usage);
     report.quality = data_quality(survey.measured);
@@ -320,7 +327,8 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
         report.worst.push_back({.stretch = stretch,
                                 .heading = std::string{heading_of(stretch)},
                                 .seen = days_of(stretch.first_seen_ms, stretch.last_seen_ms),
-                                .map = pictures.stretch(scene)});
+                                .map = pictures.stretch(scene),
+                                .strip = strip_of(stretch, survey.measured, classes)});
     }
     if (change) {
         report.change = change_of(store, *change, config, pictures);

@@ -2,6 +2,7 @@
 
 #include "app/query/section_options.hpp"
 #include "app/report/report_maps.hpp"
+#include "app/report/route_strips.hpp"
 #include "estimator/common/progress.hpp"
 #include "render/report/report.hpp"
 #include "storage/store/reader/store_reader.hpp"
@@ -16,6 +17,7 @@ struct ReportConfig {
     std::string title;
     std::size_t worst = 20;                   ///< number of sections to list
     std::optional<SectionOptions> sections{}; ///< sections to list
+    std::optional<StripRoad> strip{};         ///< road of the strip chart
     SegmentFilter filter{};                   ///< segments and passes to report
     std::string selection{};                  ///< the filter in words; "" = none
     std::optional<std::int64_t> since_ms{};   ///< first day of the period checked for changes

@@ -13,15 +13,15 @@ namespace {
 struct PictureSizes {
     int map_width_px;
     int stretch_width_px;
+    double stretch_shape; ///< height / width
 };
-constexpr PictureSizes on_screen{1400, 480};
-constexpr PictureSizes on_paper{2100, 700}; // 300 dpi on A4, with three sections side by side
-constexpr double min_map_shape = 0.625;     // height / width
+constexpr PictureSizes on_screen{1400, 480, 0.75};
+constexpr PictureSizes on_paper{2100, 1040, 0.6}; // 300 dpi on A4, two by two sections on a page
+constexpr double min_map_shape = 0.625;           // height / width
 constexpr double max_map_shape = 0.893;
 
 // A picture of maximum height shows at least as much as lower ones of the same box.
 constexpr int max_width_px = 1120, max_height_px = 1000;
-constexpr double stretch_shape = 0.75;
 constexpr double min_margin_m = 60;   // around a section: the next side streets
 constexpr double margin_share = 0.25; // share of its extent
 
@@ -48,6 +48,11 @@ GeoBox box_around(const WorstSection& stretch) {
     const double extent_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
     return grown(box, std::max(min_margin_m, margin_share * extent_m));
+}
+
+/// Returns a box with what a picture of another shape shows beside it.
+GeoBox around(const GeoBox& box) {
+    return grown(box, distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
 }
 
 MapStyle unadorned(MapStyle style) {
@@ -96,8 +101,8 @@ ReportPicture ReportPictures::map(const MapScene& scene, const ClassTable* class
 }
 
 ReportPicture ReportPictures::stretch(const MapScene& scene, const ClassTable* classes) {
-    const int width_px = sizes_for(use_).stretch_width_px;
-    return draw(scene, width_px, static_cast<int>(width_px * stretch_shape), classes);
+    const auto& [map_width_px, width_px, shape] = sizes_for(use_);
+    return draw(scene, width_px, static_cast<int>(width_px * shape), classes);
 }
 
 double ReportPictures::map_width_m(const MapScene& scene) const {
@@ -123,10 +128,7 @@ quiet_scene(const StoreReader& store, const WorstSection& stretch, const ClassTa
     MapScene scene;
     scene.scale_bar = false; // too small to read on a phone; the page states the length
     scene.box = box_around(stretch);
-    const auto around = grown(scene.box,
-                              distance_m({scene.box.south_deg, scene.box.west_deg},
-                                         {scene.box.north_deg, scene.box.east_deg}));
-    scene.lines = map_lines(store, around, classes);
+    scene.lines = map_lines(store, around(scene.box), classes);
     for (auto& line : scene.lines) {
         line.iri_class = -1;
         line.name.clear(); // too small to read; the text beside states the road
@@ -138,10 +140,18 @@ MapScene stretch_scene(const StoreReader& store,
                        const WorstSection& stretch,
                        const std::vector<SegmentRecord>& measured,
                        const ClassTable& classes) {
-    auto scene = quiet_scene(store, stretch, classes);
+    MapScene scene;
+    scene.scale_bar = false; // too small to read on a phone; the page states the length
+    scene.box = box_around(stretch);
+    scene.lines = map_lines(store, around(scene.box), classes);
+    constexpr int side_street = 5; // a thin line, beside which the section is a wide one
+    for (auto& line : scene.lines) {
+        line.rank = side_street;
+    }
     for (const auto i : stretch.records) {
         const auto& record = measured[i];
         MapLine line;
+        line.name = record.name;
         line.line = record.segment.line;
         line.iri_class = static_cast<int>(class_index(classes, rated_length(record).iri));
         scene.lines.push_back(std::move(line));

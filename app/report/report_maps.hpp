@@ -56,8 +56,8 @@ whole_scene(const StoreReader& store, const MapStyle& style, const SegmentFilter
 MapScene
 quiet_scene(const StoreReader& store, const WorstSection& stretch, const ClassTable& classes);
 
-/// Builds a scene of one section in the colours of its segments, however few passes they have, with
-/// all other roads muted.
+/// Builds a scene of one section in the colours of its segments, however few passes they have,
+/// drawn wider than its neighbours, which have their names and colours.
 MapScene stretch_scene(const StoreReader& store,
                        const WorstSection& stretch,
                        const std::vector<SegmentRecord>& measured,

@@ -116,6 +116,13 @@ document::MapFigure map_figure(const Report& report,
     return figure;
 }
 
+document::PageWords page_words(const Localisation& wording, bool contents) {
+    return {.contents = contents ? wording("contents") : "",
+            .download_csv = wording("table.csv"),
+            .sort_by = *find_message(*wording.language, "table.sort"),
+            .decimal_mark = *find_message(*wording.language, "locale.decimal_mark")};
+}
+
 std::size_t cars_in(const std::vector<ReportVehicle>& vehicles) {
     std::vector<std::string> names;
     for (const auto& vehicle : vehicles) {

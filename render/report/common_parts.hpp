@@ -45,6 +45,10 @@ document::MapFigure map_figure(const Report& report,
                                double width_m,
                                const std::string& words);
 
+/// Returns the words of what a page offers beside its content.
+/// \param contents  whether the page lists its sections
+document::PageWords page_words(const Localisation& wording, bool contents);
+
 /// Counts the distinct cars, regardless of the number of models and methods used.
 std::size_t cars_in(const std::vector<ReportVehicle>& vehicles);
 

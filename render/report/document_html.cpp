@@ -1,4 +1,5 @@
 #include "render/report/document/html.hpp"
+#include "render/report/document/page_script.hpp"
 #include "render/report/document/stylesheet.hpp"
 #include "render/report/report.hpp"
 
@@ -49,6 +50,10 @@ std::string html_of(const Span& span) {
     auto html = breakable(span.text);
     if (!span.target.empty()) {
         html = fmt::format("<a href=\"#{}\">{}</a>", escaped(span.target), html);
+    }
+    if (!span.address.empty()) {
+        html = fmt::format(
+            "<a rel=\"noopener noreferrer\" href=\"{}\">{}</a>", escaped(span.address), html);
     }
     if (span.unbroken) {
         html = "<span class=\"nw\">" + html + "</span>";
@@ -155,15 +160,31 @@ std::string svg_of(const Stroke& stroke) {
                        look);
 }
 
+/// Ends a shape, with words that appear under the pointer.
+std::string shape_end(const std::string& words) {
+    return words.empty() ? "/>\n" : fmt::format("><title>{}</title></rect>\n", escaped(words));
+}
+
 std::string svg_of(const Bar& bar) {
     return fmt::format("<rect{} x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
-                       "fill=\"#{:06x}\"/>\n",
+                       "fill=\"#{:06x}\"",
                        bar.edged ? " class=\"bar\"" : "",
                        bar.x,
                        bar.y,
                        bar.width,
                        bar.height,
-                       bar.rgb);
+                       bar.rgb) +
+           shape_end(bar.words);
+}
+
+std::string svg_of(const Band& band) {
+    return fmt::format("<rect class=\"band\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
+                       "height=\"{:.2f}\"",
+                       band.x,
+                       band.y,
+                       band.width,
+                       band.height) +
+           shape_end(band.words);
 }
 
 std::string svg_of(const Label& label) {
@@ -220,8 +241,10 @@ std::string block_html(const Table& table) {
 }
 
 std::string block_html(const Drawing& drawing) {
-    auto svg = fmt::format("<svg class=\"histogram\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
+    constexpr double widest_of_columns = 500; // wider drawings take the page's width
+    auto svg = fmt::format("<svg class=\"{}\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
                            "font-size=\"12\" aria-label=\"{}\">\n",
+                           drawing.width > widest_of_columns ? "strip" : "histogram",
                            drawing.width,
                            drawing.height,
                            escaped(drawing.words));
@@ -264,51 +287,99 @@ std::string block_html(const MapFigure& map) {
 std::string block_html(const Cards& cards) {
     std::string html = "<div class=\"cards\">\n";
     for (const auto& card : cards.cards) {
-        html += fmt::format("<figure id=\"{}\">{}<figcaption><h3>{}</h3>{}</figcaption></figure>\n",
-                            escaped(card.id),
-                            picture_html(card.picture, card.words),
-                            escaped(card.title),
-                            html_of(card.text));
+        html +=
+            fmt::format("<figure id=\"{}\">{}{}<figcaption><h3>{}</h3>{}</figcaption></figure>\n",
+                        escaped(card.id),
+                        picture_html(card.picture, card.words),
+                        card.chart ? block_html(*card.chart) : "",
+                        escaped(card.title),
+                        html_of(card.text));
     }
     return html + "</div>\n";
 }
 
-std::string html_of(const DocumentSection& section, const char* element) {
-    auto html = fmt::format("<{}>\n<h2>{}</h2>\n", element, escaped(section.title));
+std::string block_html(const Overview& overview) {
+    return fmt::format("<div class=\"overview\"><div>{}{}</div>{}</div>\n",
+                       block_html(overview.legend),
+                       block_html(overview.map),
+                       overview.distribution ? block_html(*overview.distribution) : "");
+}
+
+std::string blocks_html(const DocumentSection& section) {
+    std::string html;
     for (const auto& block : section.blocks) {
         html += std::visit([](const auto& of) { return block_html(of); }, block);
     }
-    return html + fmt::format("</{}>\n", element);
+    return html;
+}
+
+/// Returns a section that readers can fold; phones show it folded, if scripts run.
+std::string section_html(const DocumentSection& section, std::size_t number) {
+    return fmt::format("<section><details open id=\"section-{}\"><summary><h2>{}</h2></summary>\n{}"
+                       "</details></section>\n",
+                       number,
+                       escaped(section.title),
+                       blocks_html(section));
+}
+
+std::string contents_html(const Document& document) {
+    if (document.words.contents.empty()) {
+        return {};
+    }
+    auto html = fmt::format("<nav aria-label=\"{}\"><ol>\n", escaped(document.words.contents));
+    std::size_t number = 0;
+    for (const auto& section : document.sections) {
+        html += fmt::format(
+            "<li><a href=\"#section-{}\">{}</a></li>\n", ++number, escaped(section.title));
+    }
+    return html + "</ol></nav>\n";
+}
+
+std::string head_html(const Document& document) {
+    // The content security policy guarantees that the page loads no external resources and that no
+    // script runs but the page's own.
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+        "style-src 'unsafe-inline'; img-src data:; script-src 'sha256-{}'; base-uri 'none'; "
+        "form-action 'none'\">\n"
+        "<meta name=\"generator\" content=\"Macadam\">\n<title>{}</title>\n<style>\n{}</style>\n"
+        "</head>\n<body data-csv=\"{}\" data-sort=\"{}\" data-mark=\"{}\">\n",
+        escaped(document.language),
+        page_script_sha256,
+        escaped(document.title),
+        report_style(),
+        escaped(document.words.download_csv),
+        escaped(document.words.sort_by),
+        escaped(document.words.decimal_mark));
 }
 
 } // namespace
 
 std::string html_of(const Document& document) {
-    // The content security policy guarantees that the page loads no external resources.
-    auto html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-        "style-src 'unsafe-inline'; img-src data:\">\n"
-        "<meta name=\"generator\" content=\"Macadam\">\n<title>{}</title>\n<style>\n{}</style>\n"
-        "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"quiet\">{}</p>\n",
-        document.language,
-        escaped(document.title),
-        report_style(),
-        breakable(document.title),
-        html_of(document.subtitle));
+    auto html =
+        head_html(document) + fmt::format("<header>\n<h1>{}</h1>\n<p class=\"quiet\">{}</p>\n",
+                                          breakable(document.title),
+                                          html_of(document.subtitle));
+    if (!document.lead.spans.empty()) {
+        html += fmt::format("<p class=\"lead\">{}</p>\n", html_of(document.lead));
+    }
     if (!document.keys.numbers.empty()) {
         html += block_html(document.keys);
     }
-    html += "</header>\n<main>\n";
+    html += document.overview ? block_html(*document.overview) : "";
+    html += "</header>\n" + contents_html(document) + "<main>\n";
+    std::size_t number = 0;
     for (const auto& section : document.sections) {
-        html += html_of(section, "section");
+        html += section_html(section, ++number);
     }
     html += "</main>\n";
     for (const auto& section : document.end) {
-        html += html_of(section, "footer");
+        html += fmt::format(
+            "<footer>\n<h2>{}</h2>\n{}</footer>\n", escaped(section.title), blocks_html(section));
     }
-    return html + "</body>\n</html>\n";
+    return html + fmt::format("<script>{}</script>\n</body>\n</html>\n", page_script());
 }
 
 } // namespace macadam

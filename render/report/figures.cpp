@@ -83,6 +83,20 @@ void add_grid(Drawing& drawing, const Axes& axes, const Localisation& say) {
     drawing.shapes.emplace_back(Label{2, 12, Anchor::start, say.long_unit()});
 }
 
+/// Returns what a part of a column stands for: "IRI 2.50 – 2.75, Fair: 1.20 km".
+std::string bin_words(const Report& report, std::size_t bin, std::size_t c, double km) {
+    const auto& say = report.wording;
+    const double from = report.histogram.step_mm_per_m * static_cast<double>(bin);
+    return fmt::format("IRI {}{}, {}: {} {}",
+                       bin + 1 < report.histogram.length_m.size()
+                           ? say.interval(from, from + report.histogram.step_mm_per_m)
+                           : say.iri(from),
+                       bin + 1 < report.histogram.length_m.size() ? "" : " +",
+                       class_name(report, c),
+                       say.number(km, 2),
+                       say.long_unit());
+}
+
 void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
     const auto& bins = report.histogram.length_m;
     const double bar = (right - left) / static_cast<double>(bins.size());
@@ -91,11 +105,13 @@ void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
         for (std::size_t c = 0; c < report.colours.size(); ++c) {
             const double km = report.wording.long_length(bins[bin][c]);
             if (km > 0) {
-                drawing.shapes.emplace_back(Bar{left + bar * static_cast<double>(bin) + 0.5,
-                                                axes.y(below_km + km),
-                                                bar - 1,
-                                                axes.y(below_km) - axes.y(below_km + km),
-                                                report.colours[c]});
+                Bar part{left + bar * static_cast<double>(bin) + 0.5,
+                         axes.y(below_km + km),
+                         bar - 1,
+                         axes.y(below_km) - axes.y(below_km + km),
+                         report.colours[c]};
+                part.words = bin_words(report, bin, c, km);
+                drawing.shapes.emplace_back(std::move(part));
             }
             below_km += km;
         }
@@ -122,7 +138,10 @@ Cell share_bar(const Report& report, const RoadSummary& roads) {
     std::string words;
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const double share = 100 * roads.classes[c].length_m / roads.covered_m;
-        words += fmt::format("{}{} {:.0f} %", c > 0 ? ", " : "", class_name(report, c), share);
+        words += fmt::format("{}{} {}",
+                             c > 0 ? ", " : "",
+                             class_name(report, c),
+                             report.wording.whole_percent(share, 100));
         cell.shares.push_back({share, report.colours[c]});
     }
     cell.text = words;

@@ -1,5 +1,7 @@
 #include "render/report/reference_page.hpp"
 
+#include "render/report/common_parts.hpp"
+
 #include "estimator/common/statistics.hpp"
 #include "render/report/reference_figures.hpp"
 #include "render/report/report.hpp"
@@ -236,7 +238,8 @@ Document reference_document(const ReferenceReport& report) {
                       .day = "",
                       .keys = {},
                       .sections = {},
-                      .end = {}};
+                      .end = {},
+                      .words = page_words(report.wording, false)};
     if (!report.surveys.empty()) {
         document.sections.push_back(surveys_section(report));
         document.sections.push_back(pieces_section(report));

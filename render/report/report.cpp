@@ -1,5 +1,6 @@
 #include "render/report/report.hpp"
 
+#include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
 
 #include <cassert>
@@ -18,14 +19,19 @@ Document report_document(const Report& report) {
                       .day = report.period.last,
                       .keys = key_numbers(report),
                       .sections = {},
-                      .end = {source_section(report)}};
+                      .end = {source_section(report)},
+                      .lead = lead_of(report),
+                      .overview = overview_of(report),
+                      .words = page_words(say, true)};
     const bool measured = report.summary.all.covered_m > 0;
     if (measured) {
         document.sections.push_back(condition_section(report));
     }
-    document.sections.push_back(map_section(report));
     if (measured) {
         document.sections.push_back(worst_section(report));
+    }
+    if (!report.strips.empty()) {
+        document.sections.push_back(strip_section(report));
     }
     if (!report.events.empty()) {
         document.sections.push_back(events_section(report));

@@ -26,11 +26,46 @@ struct ReportDays {
     std::string last;
 };
 
+/// Roughness of an interval along a chainage, mm/m.
+struct StripPiece {
+    double from_m, to_m;
+    double iri;
+    double low, high; ///< 90 % interval
+    std::size_t iri_class;
+};
+
+/// One direction of a strip chart.
+struct StripRow {
+    std::string title;
+    std::vector<StripPiece> pieces; ///< by chainage
+};
+
+/// Point of a chainage, such as a junction.
+struct StripMark {
+    double at_m;
+    std::string name;
+};
+
+/// Interval of a chainage with a name, such as a control or reference section.
+struct StripSpan {
+    double from_m, to_m;
+    std::string name;
+};
+
+/// Content of a strip chart.
+struct Strip {
+    double from_m, to_m;
+    std::vector<StripRow> rows;
+    std::vector<StripMark> marks{}; ///< by chainage
+    std::vector<StripSpan> spans{};
+};
+
 struct ReportStretch {
     WorstSection stretch;
     std::string heading; ///< "NE"
     ReportDays seen;
     ReportPicture map;
+    std::vector<StripPiece> strip{}; ///< by metres from the section's beginning, as driven
 };
 
 /// Section of the user's own list.
@@ -128,11 +163,12 @@ struct Report {
     double min_stretch_m = 0;
     std::size_t stretches = 0;           ///< number of poor sections
     double stretches_m = 0;              ///< their total length
-    std::vector<ReportStretch> worst;    ///< worst of them, roughest first
+    std::vector<ReportStretch> worst;    ///< of them, the greatest need of repair first
     std::vector<ReportEvent> events{};   ///< the largest first
     std::size_t events_found = 0;        ///< including those not listed
     std::optional<ReportChange> change;  ///< `std::nullopt`: not requested
     std::vector<ReportSection> sections; ///< empty: not requested
+    std::vector<Strip> strips{}; ///< of one road, in order of chainage; empty: not requested
     std::vector<ReportVehicle> vehicles; ///< in listing order
     DataQuality quality;
     std::size_t lateral_passes = 0;                 ///< from lateral acceleration alone

@@ -215,7 +215,8 @@ RichText subtitle_of(const Report& report) {
     }
     std::vector<Span> text{{about + say(period.empty() ? "head.undated" : "head.driven")}};
     if (!period.empty()) {
-        text.insert(text.end(), {{" "}, {period, SpanLook::plain, true}, {"."}});
+        text.insert(text.end(), {{" "}, {period, SpanLook::plain, true}});
+        text.push_back({period.ends_with('.') ? "" : "."}); // a date may end with one
     }
     if (!report.selection.empty()) {
         text.push_back({" " + say("head.selection", {{"options", report.selection}})});
@@ -238,13 +239,33 @@ DocumentSection condition_section(const Report& report) {
     const auto& say = report.wording;
     return {say("condition"),
             {classes_table(report),
-             histogram_drawing(report),
              kinds_table(report),
              kind_classes_table(report),
              Paragraph{say("condition.remark"), true}}};
 }
 
-DocumentSection map_section(const Report& report) {
+RichText lead_of(const Report& report) {
+    const auto& say = report.wording;
+    const auto& all = report.summary.all;
+    if (all.covered_m <= 0) {
+        return {};
+    }
+    const auto share = say.whole_percent(poor_m(report), all.covered_m);
+    if (report.worst.empty()) {
+        return say(poor_m(report) > 0 ? "lead.poor" : "lead.good", {{"share", share}});
+    }
+    const auto& first = report.worst.front();
+    std::vector<Span> text{
+        {say("lead.begin", {{"share", share}}) + " "},
+        {road_name(report, first.stretch), SpanLook::strong, false, "stretch-1"},
+        {say("lead.where",
+             {{"length", say.short_length(first.stretch.length_m)},
+              {"heading", say.or_else("heading." + first.heading, first.heading)},
+              {"iri", say.iri_with_unit(first.stretch.mean.iri)}})}};
+    return text;
+}
+
+Overview overview_of(const Report& report) {
     const auto& say = report.wording;
     const auto& all = report.summary.all;
     Legend legend{report.words.title ? *report.words.title + ":"
@@ -267,7 +288,11 @@ DocumentSection map_section(const Report& report) {
     auto figure = map_figure(report, report.map, report.map_width_m, words);
     const auto grey = report.few_passes ? say("map.few_passes.remark") + " " : "";
     figure.caption = fmt::format("{} {}{}", say("map.remark"), grey, figure.caption);
-    return {say("map"), {legend, figure}};
+    Overview overview{std::move(legend), std::move(figure)};
+    if (all.covered_m > 0) {
+        overview.distribution = histogram_drawing(report);
+    }
+    return overview;
 }
 
 DocumentSection coverage_section(const Report& report) {

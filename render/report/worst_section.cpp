@@ -1,5 +1,6 @@
 #include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
+#include "render/report/strip_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ Table table_of(const Report& report) {
                  {say("column.passes"), true, true},
                  {say("column.cars"), true, true}},
                 {}};
-    for (const auto& [stretch, heading, seen, map] : report.worst) {
+    for (const auto& [stretch, heading, seen, map, strip] : report.worst) {
         const auto rank = table.rows.size() + 1;
         table.rows.push_back(
             {RichText{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(rank)}}},
@@ -44,39 +45,66 @@ Table table_of(const Report& report) {
     return table;
 }
 
+/// Adds links to the midpoint for readers' own maps: nothing is loaded unless they follow one.
+void add_links(Card& card, const Report& report, const WorstSection& stretch) {
+    const auto place = fmt::format("{:.5f},{:.5f}", stretch.middle.lat_deg, stretch.middle.lon_deg);
+    Span geo{"geo:" + place};
+    geo.address = "geo:" + place;
+    card.text.spans.push_back({"\n"});
+    card.text.spans.push_back(std::move(geo));
+    if (report.attribution.find("OpenStreetMap") != std::string::npos) {
+        Span osm{"OpenStreetMap"};
+        osm.address = fmt::format("https://www.openstreetmap.org/?mlat={0:.5f}&mlon={1:.5f}"
+                                  "#map=18/{0:.5f}/{1:.5f}",
+                                  stretch.middle.lat_deg,
+                                  stretch.middle.lon_deg);
+        card.text.spans.push_back({" · "});
+        card.text.spans.push_back(std::move(osm));
+    }
+}
+
 Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
     const auto& say = report.wording;
     const auto& stretch = of.stretch;
     const auto name = road_name(report, stretch);
     const auto period = say.period(of.seen.first, of.seen.last);
     const auto passes = passes_text(say, stretch.min_passes, stretch.median_passes);
-    return {id_of(rank),
-            of.map,
-            say("stretch.words", {{"rank", fmt::format("{}", rank)}, {"road", name}}),
-            say("stretch.title",
-                {{"rank", fmt::format("{}", rank)},
-                 {"road", name},
-                 {"heading", say.or_else("heading." + of.heading, of.heading)}}),
-            std::vector<Span>{
-                {"IRI " + say.iri(stretch.mean.iri), SpanLook::strong},
-                {say("stretch.mean",
-                     {{"interval", say.interval(stretch.mean)},
-                      {"length", say.short_length(stretch.length_m)}})},
-                {say.counted(
-                     "stretch.phone",
-                     static_cast<std::size_t>(std::lround(stretch.median_passes)),
-                     {{"worst", say.iri(stretch.worst_iri)},
-                      {"passes", passes},
-                      {"cars", say.counted("cars", static_cast<std::size_t>(stretch.vehicles))}}),
-                 SpanLook::phone},
-                {"\n" +
-                 say("stretch.place",
-                     {{"reference", reference_text(report, stretch)},
-                      {"lat", fmt::format("{:.5f}", stretch.middle.lat_deg)},
-                      {"lon", fmt::format("{:.5f}", stretch.middle.lon_deg)}}) +
-                 "\n" +
-                 (period.empty() ? say("stretch.undated")
-                                 : say("stretch.driven", {{"period", period}}))}}};
+    Card card{id_of(rank),
+              of.map,
+              say("stretch.words", {{"rank", fmt::format("{}", rank)}, {"road", name}}),
+              say("stretch.title",
+                  {{"rank", fmt::format("{}", rank)},
+                   {"road", name},
+                   {"heading", say.or_else("heading." + of.heading, of.heading)}}),
+              std::vector<Span>{
+                  {"IRI " + say.iri(stretch.mean.iri), SpanLook::strong},
+                  {say("stretch.mean",
+                       {{"interval", say.interval(stretch.mean)},
+                        {"length", say.short_length(stretch.length_m)}})},
+                  {say.counted(
+                       "stretch.phone",
+                       static_cast<std::size_t>(std::lround(stretch.median_passes)),
+                       {{"worst", say.iri(stretch.worst_iri)},
+                        {"passes", passes},
+                        {"cars", say.counted("cars", static_cast<std::size_t>(stretch.vehicles))}}),
+                   SpanLook::phone},
+                  {"\n" +
+                   say("stretch.place",
+                       {{"reference", reference_text(report, stretch)},
+                        {"lat", fmt::format("{:.5f}", stretch.middle.lat_deg)},
+                        {"lon", fmt::format("{:.5f}", stretch.middle.lon_deg)}}) +
+                   "\n" +
+                   (period.empty() ? say("stretch.undated")
+                                   : say("stretch.driven", {{"period", period}}))}}};
+    add_links(card, report, stretch);
+    if (!of.strip.empty()) {
+        Strip strip{0,
+                    of.strip.back().to_m,
+                    {{say("column.iri_in", {{"unit", std::string{say.iri_unit()}}}), of.strip}}};
+        card.chart =
+            strip_drawing(report, strip, strip_on_card, say("strip.words", {{"road", name}}));
+    }
+    return card;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "render/report/comparison/comparison_page.hpp"
 
+#include "render/report/common_parts.hpp"
 #include "render/report/comparison/agreement_figure.hpp"
 
 #include <fmt/format.h>
@@ -305,7 +306,8 @@ Document comparison_document(const SourceComparison& comparison) {
                       .day = "",
                       .keys = keys_of(comparison),
                       .sections = {},
-                      .end = {method_section(comparison)}};
+                      .end = {method_section(comparison)},
+                      .words = page_words(Localisation{}, false)};
     for (const auto& track : comparison.tracks) {
         document.sections.push_back(track_section(track, comparison));
     }

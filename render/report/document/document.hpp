@@ -36,6 +36,7 @@ struct Span {
     SpanLook look = SpanLook::plain;
     bool unbroken = false; ///< stays on one line
     std::string target{};  ///< id of the linked position in this document; "" = none
+    std::string address{}; ///< of a page elsewhere, for readers who follow it; "" = none
 };
 
 /// Text with highlighted runs.
@@ -60,7 +61,13 @@ struct Stroke {
 struct Bar {
     double x, y, width, height;
     std::uint32_t rgb;
-    bool edged = true; ///< outlined in the page's colour, for contrast
+    bool edged = true;   ///< outlined in the page's colour, for contrast
+    std::string words{}; ///< shown under the pointer on screens; "" = nothing
+};
+/// Interval of values, drawn translucent in the colour of the text.
+struct Band {
+    double x, y, width, height;
+    std::string words{}; ///< as of Bar
 };
 struct Label {
     double x, y; ///< of the anchor, on the baseline
@@ -72,7 +79,7 @@ struct Dots {
     double width;
     std::uint32_t rgb;
 };
-using Shape = std::variant<Stroke, Bar, Label, Dots>;
+using Shape = std::variant<Stroke, Bar, Band, Label, Dots>;
 
 /// Figure of lines and letters, y downwards, in units of which about 400 fit a phone. Letters are
 /// 12 units high.
@@ -164,6 +171,7 @@ struct Card {
     std::string words; ///< text alternative for screen readers
     std::string title;
     RichText text;
+    std::optional<Drawing> chart{}; ///< under the picture
 };
 
 struct Cards {
@@ -178,6 +186,21 @@ struct DocumentSection {
     std::vector<Block> blocks;
 };
 
+/// The picture of the whole: a map and a distribution, side by side where there is room.
+struct Overview {
+    Legend legend;
+    MapFigure map;
+    std::optional<Drawing> distribution{};
+};
+
+/// Words of what a page on screen offers beside its content.
+struct PageWords {
+    std::string contents;     ///< of the list of sections
+    std::string download_csv; ///< button at a table
+    std::string sort_by;      ///< "Sort by {column}", of a column's heading
+    std::string decimal_mark; ///< of the numbers in tables
+};
+
 struct Document {
     std::string language; ///< "en"
     std::string title;
@@ -188,6 +211,9 @@ struct Document {
     KeyNumbers keys;
     std::vector<DocumentSection> sections;
     std::vector<DocumentSection> end; ///< data sources, at the end
+    RichText lead{};                  ///< sentence that says what matters; empty: none
+    std::optional<Overview> overview{};
+    PageWords words{}; ///< no contents: a page of few sections without a list of them
 };
 
 } // namespace document

@@ -10,8 +10,8 @@ using namespace document;
 namespace {
 
 constexpr double bullet_indent_pt = 10;
-constexpr std::size_t keys_in_a_row = 3;
-constexpr std::size_t cards_in_a_row = 3;
+constexpr std::size_t keys_in_a_row = 5;
+constexpr std::size_t cards_in_a_row = 2; // with charts whose letters can be read
 constexpr double card_gap_pt = 12;
 constexpr double key_padding_pt = 7;
 constexpr double legend_gap_pt = 14;
@@ -43,9 +43,11 @@ struct Key {
 
 struct CardText {
     PdfText title, text;
-    double picture_pt;
+    double picture_pt, chart_pt; ///< heights
 
-    double height_pt() const { return picture_pt + 4 + title.height_pt() + text.height_pt(); }
+    double height_pt() const {
+        return picture_pt + chart_pt + 4 + title.height_pt() + text.height_pt();
+    }
 };
 
 PdfText lay_out(const PdfSheets& sheets, const Paragraph& paragraph) {
@@ -60,17 +62,40 @@ struct MapLayout {
     double whole_pt() const { return height_pt + 6 + scale.height_pt() + caption.height_pt(); }
 };
 
-MapLayout lay_out(const PdfSheets& sheets, const MapFigure& map) {
-    MapLayout layout{sheets.text(map.caption, remark(), sheets.width_pt()),
+/// \param max_width_pt  room for it
+MapLayout lay_out(const PdfSheets& sheets, const MapFigure& map, double max_width_pt) {
+    MapLayout layout{sheets.text(map.caption, remark(), max_width_pt),
                      sheets.text(map.scale, {.size_pt = small_size_pt}, -1),
                      0,
                      0};
     const double shape =
         static_cast<double>(map.picture.height_px) / std::max(1, map.picture.width_px);
     const double room_pt = sheets.height_pt() - layout.whole_pt() - room_over_map_pt;
-    layout.width_pt = std::min(sheets.width_pt(), room_pt / shape);
+    layout.width_pt = std::min(max_width_pt, room_pt / shape);
     layout.height_pt = layout.width_pt * shape;
     return layout;
+}
+
+void put_map(PdfSheets& sheets, const MapFigure& map, const MapLayout& layout) {
+    const auto& [caption, scale, width_pt, height_pt] = layout;
+    {
+        const PdfFigure figure{sheets, map.words};
+        sheets.picture(map.picture, sheets.left_pt(), sheets.y_pt(), width_pt);
+    }
+    sheets.skip(height_pt + 4);
+    if (map.scale_percent > 0) {
+        const double bar_pt = width_pt * map.scale_percent / 100;
+        const double y_pt = sheets.y_pt() + scale.height_pt() / 2 - scale_height_pt / 2;
+        sheets.fill(print::ink, sheets.left_pt(), y_pt + scale_height_pt - 1, bar_pt, 1);
+        sheets.fill(print::ink, sheets.left_pt(), y_pt, 1, scale_height_pt);
+        sheets.fill(print::ink, sheets.left_pt() + bar_pt - 1, y_pt, 1, scale_height_pt);
+        const PdfElement element{sheets, "P"};
+        sheets.draw(scale, sheets.left_pt() + bar_pt + 6, sheets.y_pt());
+        sheets.skip(scale.height_pt());
+    }
+    const PdfElement element{sheets, "Caption"};
+    sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
+    sheets.skip(caption.height_pt() + block_gap_pt);
 }
 
 } // namespace
@@ -80,21 +105,28 @@ double first_pt(const PdfSheets& sheets, const Paragraph& paragraph) {
 }
 
 double first_pt(const PdfSheets& sheets, const MapFigure& map) {
-    return lay_out(sheets, map).whole_pt();
+    return lay_out(sheets, map, sheets.width_pt()).whole_pt();
 }
 
 void put(PdfSheets& sheets, const Paragraph& paragraph) {
     const auto text = lay_out(sheets, paragraph);
     sheets.need(std::min(text.height_pt(), sheets.height_pt()));
+    const PdfElement element{sheets, "P"};
     sheets.draw(text, sheets.left_pt(), sheets.y_pt());
     sheets.skip(text.height_pt() + block_gap_pt * 0.7);
 }
 
 void put(PdfSheets& sheets, const Bullets& bullets) {
+    const PdfElement list{sheets, "L"};
     for (const auto& item : bullets.items) {
         const auto text = sheets.text(item, body(), line_width(sheets) - bullet_indent_pt);
         sheets.need(std::min(text.height_pt(), sheets.height_pt()));
-        sheets.draw(sheets.text("•", body(), -1), sheets.left_pt(), sheets.y_pt());
+        const PdfElement entry{sheets, "LI"};
+        {
+            const PdfElement label{sheets, "Lbl"};
+            sheets.draw(sheets.text("•", body(), -1), sheets.left_pt(), sheets.y_pt());
+        }
+        const PdfElement content{sheets, "LBody"};
         sheets.draw(text, sheets.left_pt() + bullet_indent_pt, sheets.y_pt());
         sheets.skip(text.height_pt() + 3);
     }
@@ -112,7 +144,7 @@ void put(PdfSheets& sheets, const KeyNumbers& keys) {
         for (auto k = i; k < std::min(i + keys_in_a_row, keys.numbers.size()); ++k) {
             const auto& [what, value, more] = keys.numbers[k];
             row.push_back({sheets.text(what, remark(), text_pt),
-                           sheets.text(value, {.size_pt = 14, .bold = true}, text_pt),
+                           sheets.text(value, {.size_pt = 12, .bold = true}, text_pt),
                            sheets.text(more, remark(), text_pt)});
             height_pt = std::max(height_pt, row.back().height_pt());
         }
@@ -121,6 +153,7 @@ void put(PdfSheets& sheets, const KeyNumbers& keys) {
         for (const auto& key : row) {
             sheets.frame(print::border, x_pt, sheets.y_pt(), width_pt, height_pt);
             double y_pt = sheets.y_pt() + key_padding_pt;
+            const PdfElement element{sheets, "P"};
             for (const auto* const text : {&key.what, &key.value, &key.more}) {
                 sheets.draw(*text, x_pt + key_padding_pt, y_pt);
                 y_pt += text->height_pt();
@@ -136,7 +169,10 @@ void put(PdfSheets& sheets, const Legend& legend) {
     const auto title = sheets.text(legend.title, remark(), -1);
     sheets.need(2 * title.height_pt());
     double x_pt = sheets.left_pt();
-    sheets.draw(title, x_pt, sheets.y_pt());
+    {
+        const PdfElement element{sheets, "P"};
+        sheets.draw(title, x_pt, sheets.y_pt());
+    }
     x_pt += title.width_pt() + legend_gap_pt;
     for (const auto& [rgb, name, range, dark_rgb] : legend.entries) {
         const RichText words{{{name}, {range.empty() ? "" : " " + range, SpanLook::quiet}}};
@@ -153,6 +189,7 @@ void put(PdfSheets& sheets, const Legend& legend) {
         } else {
             sheets.fill(print::border, x_pt, middle_pt - 0.75, swatch_pt, 1.5);
         }
+        const PdfElement element{sheets, "P"};
         sheets.draw(text, x_pt + swatch_pt + 4, sheets.y_pt());
         x_pt += width_pt + legend_gap_pt;
     }
@@ -160,23 +197,56 @@ void put(PdfSheets& sheets, const Legend& legend) {
 }
 
 void put(PdfSheets& sheets, const MapFigure& map) {
-    const auto layout = lay_out(sheets, map);
-    const auto& [caption, scale, width_pt, height_pt] = layout;
+    const auto layout = lay_out(sheets, map, sheets.width_pt());
     sheets.need(layout.whole_pt());
-    sheets.picture(map.picture, sheets.left_pt(), sheets.y_pt(), width_pt);
-    sheets.skip(height_pt + 4);
-    if (map.scale_percent > 0) {
-        const double bar_pt = width_pt * map.scale_percent / 100;
-        const double y_pt = sheets.y_pt() + scale.height_pt() / 2 - scale_height_pt / 2;
-        sheets.fill(print::ink, sheets.left_pt(), y_pt + scale_height_pt - 1, bar_pt, 1);
-        sheets.fill(print::ink, sheets.left_pt(), y_pt, 1, scale_height_pt);
-        sheets.fill(print::ink, sheets.left_pt() + bar_pt - 1, y_pt, 1, scale_height_pt);
-        sheets.draw(scale, sheets.left_pt() + bar_pt + 6, sheets.y_pt());
-        sheets.skip(scale.height_pt());
-    }
-    sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
-    sheets.skip(caption.height_pt() + block_gap_pt);
+    put_map(sheets, map, layout);
 }
+
+void put(PdfSheets& sheets, const Overview& overview) {
+    constexpr double gap_pt = 14;
+    constexpr double map_share = 0.56; // of the width, if a distribution is beside it
+    put(sheets, overview.legend);
+    if (!overview.distribution) {
+        put(sheets, overview.map);
+        return;
+    }
+    const double map_pt = map_share * (sheets.width_pt() - gap_pt);
+    const double chart_pt = sheets.width_pt() - gap_pt - map_pt;
+    const auto layout = lay_out(sheets, overview.map, map_pt);
+    sheets.need(layout.whole_pt());
+    const auto& chart = *overview.distribution;
+    const double top_pt = sheets.y_pt();
+    put_map(sheets, overview.map, layout);
+    const double chart_height_pt = chart_pt * chart.height / chart.width;
+    draw_at(sheets,
+            chart,
+            sheets.left_pt() + map_pt + gap_pt,
+            top_pt + std::max(0.0, layout.height_pt - chart_height_pt) / 2,
+            chart_pt);
+}
+
+namespace {
+
+void put_card(
+    PdfSheets& sheets, const Card& card, const CardText& of, double x_pt, double width_pt) {
+    double y_pt = sheets.y_pt() + of.picture_pt + of.chart_pt + 4;
+    {
+        const PdfElement title{sheets, "H3"};
+        sheets.draw(of.title, x_pt, y_pt);
+    }
+    {
+        const PdfFigure figure{sheets, card.words};
+        sheets.picture(card.picture, x_pt, sheets.y_pt(), width_pt);
+    }
+    if (card.chart) {
+        draw_at(sheets, *card.chart, x_pt, sheets.y_pt() + of.picture_pt + 4, width_pt);
+    }
+    y_pt += of.title.height_pt();
+    const PdfElement text{sheets, "P"};
+    sheets.draw(of.text, x_pt, y_pt);
+}
+
+} // namespace
 
 void put(PdfSheets& sheets, const Cards& cards) {
     const double width_pt = (sheets.width_pt() - card_gap_pt * (cards_in_a_row - 1)) /
@@ -190,7 +260,8 @@ void put(PdfSheets& sheets, const Cards& cards) {
             row.push_back(
                 {sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, width_pt),
                  sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, width_pt),
-                 width_pt * card.picture.height_px / std::max(1, card.picture.width_px)});
+                 width_pt * card.picture.height_px / std::max(1, card.picture.width_px),
+                 card.chart ? 4 + width_pt * card.chart->height / card.chart->width : 0});
             height_pt = std::max(height_pt, row.back().height_pt());
         }
         sheets.need(std::min(height_pt, sheets.height_pt()));
@@ -199,10 +270,7 @@ void put(PdfSheets& sheets, const Cards& cards) {
             const double x_pt =
                 sheets.left_pt() + static_cast<double>(k - i) * (width_pt + card_gap_pt);
             sheets.place(cards.cards[k].id, sheets.y_pt());
-            sheets.picture(cards.cards[k].picture, x_pt, sheets.y_pt(), width_pt);
-            const double y_pt = sheets.y_pt() + of.picture_pt + 4;
-            sheets.draw(of.title, x_pt, y_pt);
-            sheets.draw(of.text, x_pt, y_pt + of.title.height_pt());
+            put_card(sheets, cards.cards[k], of, x_pt, width_pt);
         }
         sheets.skip(height_pt + card_gap_pt);
     }

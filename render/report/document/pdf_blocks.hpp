@@ -25,5 +25,10 @@ void put(PdfSheets& sheets, const document::Drawing& drawing);
 void put(PdfSheets& sheets, const document::Legend& legend);
 void put(PdfSheets& sheets, const document::MapFigure& map);
 void put(PdfSheets& sheets, const document::Cards& cards);
+void put(PdfSheets& sheets, const document::Overview& overview);
+
+/// Draws a figure with its upper left corner at a position, as wide as given.
+void draw_at(
+    PdfSheets& sheets, const document::Drawing& drawing, double x_pt, double y_pt, double width_pt);
 
 } // namespace macadam

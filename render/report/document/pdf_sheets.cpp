@@ -66,6 +66,8 @@ PdfSheets::PdfSheets(const Document& document, const PdfConfig& config, std::opt
         cairo_pdf_surface_set_metadata(surface_.get(), what, text.c_str());
     };
     set(CAIRO_PDF_METADATA_TITLE, document.title);
+    access_.language = document.language;
+    access_.title = document.title;
     set(CAIRO_PDF_METADATA_CREATOR, "Macadam");
     set(CAIRO_PDF_METADATA_CREATE_DATE, document.day.empty() ? "" : document.day + "T00:00:00Z");
     begin_page();
@@ -114,12 +116,22 @@ void PdfSheets::draw(const PdfText& text, double x_pt, double y_pt) const {
     cairo_move_to(cairo_.get(), x_pt, y_pt);
     if (!text.target().empty()) {
         cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("dest=" + quoted(text.target())).c_str());
+    } else if (!text.address().empty()) {
+        cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("uri=" + quoted(text.address())).c_str());
     }
     pango_cairo_show_layout(cairo_.get(), text.layout());
     cairo_new_path(cairo_.get()); // avoids a line from the text's origin
-    if (!text.target().empty()) {
+    if (!text.target().empty() || !text.address().empty()) {
         cairo_tag_end(cairo_.get(), CAIRO_TAG_LINK);
     }
+}
+
+void PdfSheets::begin(const char* tag) {
+    cairo_tag_begin(cairo_.get(), tag, "");
+}
+
+void PdfSheets::end(const char* tag) {
+    cairo_tag_end(cairo_.get(), tag);
 }
 
 void PdfSheets::fill(
@@ -207,7 +219,7 @@ std::string PdfSheets::finished() {
                 fmt::format("cannot write the PDF: {}", cairo_status_to_string(status))};
         }
     }
-    return std::move(bytes_);
+    return accessible_pdf(bytes_, access_);
 }
 
 } // namespace macadam

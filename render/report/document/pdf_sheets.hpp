@@ -2,6 +2,7 @@
 
 #include "render/report/document/document.hpp"
 #include "render/report/document/pdf.hpp"
+#include "render/report/document/pdf_tags.hpp"
 #include "render/report/document/pdf_text.hpp"
 
 #include <cairo-pdf.h>
@@ -56,6 +57,16 @@ public:
     /// Adds an outline entry for a link target.
     int outline_to(const std::string& id, const std::string& title, int above) const;
 
+    /// Begins and ends an element of the structure that assistive software reads: "P", "H1",
+    /// "Table". What is drawn outside of elements without children is decoration.
+    void begin(const char* tag);
+    void end(const char* tag);
+
+    /// Records the text alternative of the figure, or the scope of the heading of a table, that
+    /// begins next.
+    void describe_figure(const std::string& words) { access_.figures.push_back(words); }
+    void scope_heading(const char* scope) { access_.heading_scope.emplace_back(scope); }
+
     int count() const { return page_; }
 
     /// Returns the bytes of the file; no drawing is allowed afterwards.
@@ -78,6 +89,32 @@ private:
     CairoContext cairo_;
     double y_pt_ = top_margin_pt;
     int page_ = 0;
+    PdfAccess access_;
+};
+
+/// Element of the structure during the lifetime of this value.
+class PdfElement {
+public:
+    PdfElement(PdfSheets& sheets, const char* tag) : sheets_{sheets}, tag_{tag} {
+        sheets_.begin(tag_);
+    }
+    PdfElement(const PdfElement&) = delete;
+    PdfElement& operator=(const PdfElement&) = delete;
+    ~PdfElement() { sheets_.end(tag_); }
+
+private:
+    PdfSheets& sheets_;
+    const char* tag_;
+};
+
+/// Figure with its text alternative.
+class PdfFigure {
+public:
+    PdfFigure(PdfSheets& sheets, const std::string& words)
+        : element_{(sheets.describe_figure(words), sheets), "Figure"} {}
+
+private:
+    PdfElement element_;
 };
 
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace macadam {
@@ -156,17 +157,39 @@ Row row_of(const PdfSheets& sheets, const Table& table, const Columns& columns, 
     return row;
 }
 
-void draw_head(PdfSheets& sheets, const Columns& columns, const Row& head) {
+std::string words_of(const Cell& cell) {
+    std::string words;
+    for (const auto& span : cell.text.spans) {
+        words += span.text;
+    }
+    return words;
+}
+
+/// Draws the headings of the columns; those that a further page repeats are decoration.
+void draw_head(PdfSheets& sheets, const Columns& columns, const Row& head, bool is_first) {
+    if (is_first) {
+        sheets.begin("TR");
+    }
     for (std::size_t c = 0; c < head.texts.size(); ++c) {
         const double lower = head.height_pt - padding_pt - head.texts[c].height_pt();
+        if (is_first) {
+            sheets.scope_heading("Column");
+            sheets.begin("TH");
+        }
         sheets.draw(head.texts[c], columns.x_pt(c), sheets.y_pt() + lower);
+        if (is_first) {
+            sheets.end("TH");
+        }
+    }
+    if (is_first) {
+        sheets.end("TR");
     }
     sheets.skip(head.height_pt);
     sheets.rule(print::edge, sheets.left_pt(), sheets.y_pt(), columns.whole_pt());
 }
 
-void draw_shares(
-    const PdfSheets& sheets, const Cell& cell, double x_pt, double y_pt, double width_pt) {
+void draw_shares(PdfSheets& sheets, const Cell& cell, double x_pt, double y_pt, double width_pt) {
+    const PdfFigure figure{sheets, words_of(cell)};
     double from = 0;
     for (const auto& [percent, rgb] : cell.shares) {
         sheets.fill(
@@ -176,22 +199,40 @@ void draw_shares(
     sheets.frame(print::edge, x_pt, y_pt, width_pt, share_height_pt);
 }
 
+/// Draws a cell of a row whose text begins at a height.
+void draw_cell(PdfSheets& sheets,
+               const Columns& columns,
+               std::size_t c,
+               const PdfText& text,
+               const Cell& cell,
+               double y_pt) {
+    if (c == 0) {
+        sheets.scope_heading("Row");
+    }
+    const PdfElement element{sheets, c == 0 ? "TH" : "TD"};
+    const double x_pt = columns.x_pt(c);
+    if (cell.swatch) {
+        const double middle = (text.height_pt() - swatch_pt) / 2;
+        sheets.fill(*cell.swatch, x_pt, y_pt + middle, swatch_pt, swatch_pt);
+        sheets.frame(print::edge, x_pt, y_pt + middle, swatch_pt, swatch_pt);
+    }
+    if (!cell.shares.empty()) {
+        draw_shares(sheets, cell, x_pt, y_pt + 1, columns.width_pt(c));
+        return;
+    }
+    sheets.draw(text, x_pt + swatch_width(cell), y_pt);
+}
+
 void draw_row(PdfSheets& sheets,
               const Columns& columns,
               const Row& row,
               const std::vector<Cell>& cells) {
     const double y_pt = sheets.y_pt() + padding_pt;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const double x_pt = columns.x_pt(c);
-        if (cells[c].swatch) {
-            const double middle = (row.texts[c].height_pt() - swatch_pt) / 2;
-            sheets.fill(*cells[c].swatch, x_pt, y_pt + middle, swatch_pt, swatch_pt);
-            sheets.frame(print::edge, x_pt, y_pt + middle, swatch_pt, swatch_pt);
+    {
+        const PdfElement element{sheets, "TR"};
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            draw_cell(sheets, columns, c, row.texts[c], cells[c], y_pt);
         }
-        if (!cells[c].shares.empty()) {
-            draw_shares(sheets, cells[c], x_pt, y_pt + 1, columns.width_pt(c));
-        }
-        sheets.draw(row.texts[c], x_pt + swatch_width(cells[c]), y_pt);
     }
     sheets.skip(row.height_pt);
     sheets.rule(print::border, sheets.left_pt(), sheets.y_pt(), columns.whole_pt());
@@ -241,13 +282,17 @@ void put(PdfSheets& sheets, const Table& table) {
     const auto layout = lay_out(sheets, table);
     const auto& [columns, caption, head, rows] = layout;
     sheets.need(std::min(layout.first_pt(), sheets.height_pt()));
-    sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
+    const PdfElement element{sheets, "Table"};
+    {
+        const PdfElement title{sheets, "Caption"};
+        sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
+    }
     sheets.skip(caption.height_pt() + padding_pt);
-    draw_head(sheets, columns, head);
+    draw_head(sheets, columns, head, true);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!sheets.has_room(rows[i].height_pt)) {
             sheets.need(rows[i].height_pt);
-            draw_head(sheets, columns, head);
+            draw_head(sheets, columns, head, false);
         }
         draw_row(sheets, columns, rows[i], table.rows[i]);
     }

@@ -81,6 +81,7 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
         text += cleaned(span.text);
         add_look(looks.get(), span, from, text.size());
         target_ = span.target.empty() ? target_ : span.target;
+        address_ = span.address.empty() ? address_ : span.address;
     }
     insert(looks.get(), pango_attr_font_features_new("tnum=1"), 0, text.size());
     pango_layout_set_text(layout_.get(), text.data(), static_cast<int>(text.size()));

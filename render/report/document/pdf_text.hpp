@@ -37,7 +37,8 @@ public:
     double height_pt() const; ///< of all lines
     PangoLayout* layout() const { return layout_.get(); }
     std::uint32_t rgb() const { return rgb_; }
-    const std::string& target() const { return target_; } ///< "" = no link
+    const std::string& target() const { return target_; }   ///< "" = no link within the document
+    const std::string& address() const { return address_; } ///< "" = no link to elsewhere
 
 private:
     struct Free {
@@ -45,7 +46,7 @@ private:
     };
     std::unique_ptr<PangoLayout, Free> layout_;
     std::uint32_t rgb_;
-    std::string target_;
+    std::string target_, address_;
 };
 
 } // namespace macadam

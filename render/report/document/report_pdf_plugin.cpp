@@ -14,18 +14,39 @@ namespace {
 
 constexpr double title_size_pt = 20;
 constexpr double heading_size_pt = 13;
+constexpr double lead_size_pt = 13;
+
+/// Adds the sentence that says what matters, larger than the text.
+void put_lead(PdfSheets& sheets, const RichText& lead) {
+    const auto text = sheets.text(lead, {.size_pt = lead_size_pt, .bold = true}, sheets.width_pt());
+    const PdfElement element{sheets, "P"};
+    sheets.draw(text, sheets.left_pt(), sheets.y_pt());
+    sheets.skip(text.height_pt() + block_gap_pt);
+}
 
 void put_title(PdfSheets& sheets, const Document& document) {
     const auto title =
         sheets.text(document.title, {.size_pt = title_size_pt, .bold = true}, sheets.width_pt());
-    sheets.draw(title, sheets.left_pt(), sheets.y_pt());
+    {
+        const PdfElement element{sheets, "H1"};
+        sheets.draw(title, sheets.left_pt(), sheets.y_pt());
+    }
     sheets.skip(title.height_pt() + 3);
     const auto subtitle = sheets.text(
         document.subtitle, {.size_pt = body_size_pt, .rgb = print::quiet}, sheets.width_pt());
-    sheets.draw(subtitle, sheets.left_pt(), sheets.y_pt());
+    {
+        const PdfElement element{sheets, "P"};
+        sheets.draw(subtitle, sheets.left_pt(), sheets.y_pt());
+    }
     sheets.skip(subtitle.height_pt() + block_gap_pt);
+    if (!document.lead.spans.empty()) {
+        put_lead(sheets, document.lead);
+    }
     if (!document.keys.numbers.empty()) {
         put(sheets, document.keys);
+    }
+    if (document.overview) {
+        put(sheets, *document.overview);
     }
 }
 
@@ -62,7 +83,10 @@ void put_section(PdfSheets& sheets, const DocumentSection& section) {
                          gap_pt + heading.height_pt() + 4 + room_under_heading(sheets, section)));
     sheets.skip(sheets.is_at_top() ? 0 : gap_pt);
     const int entry = sheets.outline(section.title, CAIRO_PDF_OUTLINE_ROOT);
-    sheets.draw(heading, sheets.left_pt(), sheets.y_pt());
+    {
+        const PdfElement element{sheets, "H2"};
+        sheets.draw(heading, sheets.left_pt(), sheets.y_pt());
+    }
     sheets.skip(heading.height_pt() + 4);
     for (const auto& block : section.blocks) {
         if (const auto* const cards = std::get_if<Cards>(&block)) {
@@ -73,6 +97,7 @@ void put_section(PdfSheets& sheets, const DocumentSection& section) {
 }
 
 void put_all(PdfSheets& sheets, const Document& document) {
+    const PdfElement element{sheets, "Document"};
     put_title(sheets, document);
     for (const auto& section : document.sections) {
         put_section(sheets, section);

@@ -73,6 +73,33 @@ figcaption{font-size:.875rem;line-height:1.4;font-variant-numeric:tabular-nums;m
 figcaption h3{color:var(--ink);margin-bottom:.15rem}
 figcaption b{color:var(--ink);font-weight:600}
 a{color:inherit}
+summary{cursor:pointer;margin:2.6rem 0 .6rem;padding-top:1.1rem;border-top:1px solid var(--rule)}
+summary h2{display:inline;margin:0;padding:0;border:0}
+summary:focus-visible,button:focus-visible,a:focus-visible{outline:2px solid var(--ink);outline-offset:2px}
+.lead{max-width:none;font-size:clamp(1.2rem,1rem + 1vw,1.6rem);line-height:1.3;font-weight:600;margin:.9rem 0 1rem;overflow-wrap:anywhere}
+nav{position:sticky;top:0;z-index:1;background:var(--page);border-bottom:1px solid var(--rule);margin-top:1rem}
+nav ol{display:flex;gap:1.1rem;list-style:none;max-width:none;margin:0;padding:.55rem .1rem;overflow-x:auto;scrollbar-width:thin}
+nav li{margin:0;white-space:nowrap;font-size:.875rem}
+nav a{color:var(--quiet);text-decoration:none}
+nav a:hover,nav a[aria-current]{color:var(--ink);text-decoration:underline}
+details,.cards figure{scroll-margin-top:3.2rem}
+.overview{display:grid;gap:1.5rem;align-items:center}
+.overview>*{min-width:0}
+.strip{display:block;width:100%;height:auto;margin:1rem 0}
+.strip text,.cards .histogram text{fill:var(--quiet)}
+.cards .histogram{margin:.35rem 0 0}
+.band{fill:var(--ink);opacity:.22}
+th button{all:unset;cursor:pointer;display:inline}
+th button:hover{text-decoration:underline}
+th button:focus-visible{outline:2px solid var(--ink);outline-offset:2px}
+th[aria-sort=ascending] button::after{content:" \25B2"}
+th[aria-sort=descending] button::after{content:" \25BC"}
+.save{font:inherit;font-size:.8125rem;color:var(--quiet);background:none;border:1px solid var(--rule);border-radius:.3rem;padding:.2rem .6rem;margin:-.4rem 0 1rem;cursor:pointer}
+.save:hover{color:var(--ink);border-color:var(--quiet)}
+@media screen and (min-width:58rem){.overview{grid-template-columns:minmax(0,3fr) minmax(0,2fr)}}
+@media screen and (min-width:82rem){body{max-width:80rem;padding-left:15rem;position:relative}
+nav{position:fixed;top:0;bottom:0;width:12.5rem;margin-left:-14rem;overflow-y:auto;border:0;padding-top:1.6rem}
+nav ol{display:block}nav li{white-space:normal;padding:.3rem 0}}
 )";
 
 constexpr const char* on_a_phone = R"(
@@ -91,7 +118,8 @@ tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-grou
 .wide{overflow:visible;break-inside:avoid}.long{break-inside:auto}.histogram{max-width:88mm}.legend{break-after:avoid}table{font-size:8.5pt}th,td{padding:.25rem .45rem}.share{width:5.5rem}
 .key{grid-template-columns:repeat(3,1fr);gap:.5rem}.key b{font-size:14pt}
 .cards{grid-template-columns:1fr 1fr 1fr;gap:.8rem}.cards figcaption{font-size:8.5pt}
-.map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}}
+.map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}
+nav,.save{display:none}summary{list-style:none;break-after:avoid}.overview{grid-template-columns:3fr 2fr}.strip{break-inside:avoid}}
 )";
 
 /// Returns rules that turn rows into blocks of titles and values on screens too narrow for columns.

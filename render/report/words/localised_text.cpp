@@ -135,6 +135,12 @@ std::string Localisation::percent(double part, double whole) const {
                            : said(number(percent, 1));
 }
 
+std::string Localisation::whole_percent(double part, double whole_part) const {
+    const double percents = whole_part > 0 ? 100 * part / whole_part : 0;
+    return percents < 1 ? percent(part, whole_part)
+                        : say(*language, "locale.percent", {{"number", whole(percents)}});
+}
+
 std::string Localisation::day(std::string_view iso) const {
     constexpr std::size_t iso_letters = 10;
     if (iso.size() != iso_letters) {

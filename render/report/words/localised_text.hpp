@@ -47,6 +47,9 @@ struct Localisation {
     /// `whole` is 0.
     std::string percent(double part, double whole) const;
 
+    /// Returns "34 %"; with the decimals of percent() below 1 %.
+    std::string whole_percent(double part, double whole) const;
+
     std::string day(std::string_view iso) const; ///< from "2026-03-01"
     std::string period(std::string_view first_day,
                        std::string_view last_day) const; ///< "" = no days

@@ -1,7 +1,10 @@
 #include "render/report/report.hpp"
 
 #include "render/report/document/html.hpp"
+#include "render/report/document/page_script.hpp"
 #include "render/report/figures.hpp"
+#include "render/report/strip_chart.hpp"
+#include "storage/files/sha256.hpp"
 #include "support/program/html_text.hpp"
 #include "support/roads/sample_report.hpp"
 
@@ -10,7 +13,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -54,8 +60,8 @@ std::string flaw_in(const std::string& html) {
         } else if (tag.back() != '/' && std::ranges::find(empty, name) == empty.end()) {
             open.push_back(name);
         }
-        if (name == "style") {
-            at = html.find("</style>", end) - 1;
+        if (name == "style" || name == "script") {
+            at = html.find("</" + name + ">", end) - 1;
         }
     }
     return open.empty() ? "" : "<" + open.back() + "> stays open";
@@ -90,8 +96,9 @@ TEST(Report, HasATableRowForEachStretchThatLeadsToItsMap) {
 
 TEST(Report, AsksForNothingFromOutside) {
     const auto html = report_html(town());
-    EXPECT_THAT(html, Not(HasSubstr("://")));
-    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(between(html, "<script>", "</script>"), ElementsAre(std::string{page_script()}));
+    EXPECT_THAT(page_script(), Not(HasSubstr("://")));
+    EXPECT_THAT(page_script(), Not(HasSubstr("fetch")));
     EXPECT_THAT(html, Not(HasSubstr("<link")));
     EXPECT_THAT(html, Not(HasSubstr("@import")));
     EXPECT_THAT(html, Not(HasSubstr("url(")));
@@ -99,7 +106,12 @@ TEST(Report, AsksForNothingFromOutside) {
         EXPECT_THAT(address, StartsWith("data:image/png;base64,"));
     }
     for (const auto& address : between(html, " href=\"", "\"")) {
-        EXPECT_THAT(address, StartsWith("#stretch-"));
+        // Within the page, or what a reader may follow.
+        EXPECT_THAT(address,
+                    AnyOf(StartsWith("#stretch-"),
+                          StartsWith("#section-"),
+                          StartsWith("geo:45.7"),
+                          StartsWith("https://www.openstreetmap.org/?mlat=45.7")));
     }
 }
 
@@ -114,7 +126,7 @@ TEST(Report, TakesNoNameForMarkup) {
     report.vehicles[0].name = report.vehicles[0].model = report.vehicles[0].method = hostile;
     report.summary.kinds[0].kind = hostile;
     const auto html = report_html(report);
-    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(between(html, "<script", "</script>"), SizeIs(1)); // the page's own
     EXPECT_THAT(html, Not(HasSubstr("\xff")));
     EXPECT_THAT(html, HasSubstr("&quot;&gt;&lt;script&gt;alert(&#39;x&#39;)"));
     EXPECT_EQ(flaw_in(html), "");
@@ -136,6 +148,91 @@ TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
     for (const auto& figure : between(html, "<svg ", ">")) {
         EXPECT_THAT(figure, AnyOf(HasSubstr("role=\"img\""), HasSubstr("aria-hidden=\"true\"")));
     }
+}
+
+TEST(Report, BeginsWithWhatMatters) {
+    auto report = town();
+    const auto lead = [&] { return between(report_html(report), "<p class=\"lead\">", "</p>"); };
+    // 5 of 8 km are poor.
+    EXPECT_THAT(lead(),
+                ElementsAre("62 % of what was driven is poor; begin with <b><a "
+                            "href=\"#stretch-1\">Rue de l&#39;Épée</a></b> (140 m towards N, mean "
+                            "IRI 4.56 mm/m)."));
+    report.worst.clear();
+    EXPECT_THAT(lead(), ElementsAre(HasSubstr("62 % of what was driven is poor, in short")));
+    report.summary.all = testing::summary_of(20000, {8000, 0, 0});
+    EXPECT_THAT(lead(), ElementsAre("Nothing that was driven is poor."));
+    EXPECT_THAT(between(report_html(nothing_measured()), "class=\"lead\"", "</p>"), IsEmpty());
+}
+
+TEST(Report, ShowsMapAndDistributionTogetherBeforeItsSections) {
+    const auto html = report_html(town());
+    const auto overview = between(html, "<div class=\"overview\">", "</header>");
+    ASSERT_THAT(overview, SizeIs(1));
+    EXPECT_THAT(overview[0],
+                AllOf(HasSubstr("<figure class=\"map\""), HasSubstr("<svg class=\"histogram\"")));
+    EXPECT_LT(html.find("class=\"overview\""), html.find("<main>"));
+}
+
+TEST(Report, ListsItsSectionsAsContents) {
+    const auto html = report_html(town());
+    const auto entries = between(between(html, "<nav", "</nav>").at(0), "href=\"#", "\"");
+    EXPECT_THAT(entries, SizeIs(between(html, "<summary><h2>", "</h2>").size()));
+    for (const auto& entry : entries) {
+        EXPECT_THAT(html, HasSubstr("<details open id=\"" + entry + "\">"));
+    }
+}
+
+TEST(Report, LetsOnlyItsOwnScriptRun) {
+    Sha256 hash;
+    hash.add(page_script());
+    const auto hex = hash.hex();
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i < hex.size(); i += 2) {
+        bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+    }
+    EXPECT_EQ(base64(bytes), page_script_sha256) << "put this into page_script.hpp";
+    EXPECT_THAT(
+        report_html(town()),
+        HasSubstr("default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src "
+                  "'sha256-" +
+                  std::string{page_script_sha256} + "'"));
+}
+
+TEST(StripChart, DrawsEachPieceAsHighAsItIsRoughWithItsInterval) {
+    auto report = town();
+    report.strips = {{0,
+                      100,
+                      {{"along", {{0, 20, 2, 1, 3, 1}, {20, 40, 4, 3, 5, 2}}},
+                       {"against", {{60, 80, 1, 0.5, 1.5, 0}}}},
+                      {{40, "High Street"}},
+                      {{10, 50, "Control: A"}}}};
+    const auto drawing =
+        strip_drawing(report, report.strips[0], strip_on_page, "IRI along the road");
+    std::vector<document::Bar> columns;
+    std::vector<document::Band> bands;
+    std::vector<std::string> labels;
+    for (const auto& shape : drawing.shapes) {
+        if (const auto* const bar = std::get_if<document::Bar>(&shape)) {
+            columns.push_back(*bar);
+        } else if (const auto* const band = std::get_if<document::Band>(&shape)) {
+            bands.push_back(*band);
+        } else if (const auto* const label = std::get_if<document::Label>(&shape)) {
+            labels.push_back(label->text);
+        }
+    }
+    ASSERT_THAT(columns, SizeIs(3));
+    ASSERT_THAT(bands, SizeIs(4)); // the intervals, and the control section
+    EXPECT_NEAR(columns[1].height / columns[0].height, 2, 1e-9);
+    EXPECT_NEAR(columns[2].height / columns[0].height, 0.5, 1e-9); // one scale for both directions
+    EXPECT_NEAR(bands[0].height, columns[0].height, 1e-9);         // 1 to 3 is as much as 0 to 2
+    EXPECT_EQ(columns[1].rgb, report.colours[2]);
+    EXPECT_EQ(columns[1].words, "20–40 m: IRI 4.00 (3.00 – 5.00)");
+    EXPECT_GT(columns[2].y, columns[1].y); // the other direction lies below
+    EXPECT_THAT(labels, Contains("High Street"));
+    EXPECT_THAT(labels, Contains("Control: A"));
+    EXPECT_THAT(report_html(report), HasSubstr("<h2>Strip chart</h2>"));
+    EXPECT_EQ(flaw_in(report_html(report)), "");
 }
 
 TEST(Report, OfNothingMeasuredSaysSo) {
@@ -330,7 +427,7 @@ TEST(ReportNumbers, AreWrittenAsTheLanguageDoes) {
 /// The attribute's values of all bars, in their order.
 std::vector<double> bars(const std::string& svg, const std::string& attribute) {
     std::vector<double> values;
-    for (const auto& bar : between(svg, "<rect class=\"bar\"", "/>")) {
+    for (const auto& bar : between(svg, "<rect class=\"bar\"", "</rect>")) {
         values.push_back(std::stod(between(bar, " " + attribute + "=\"", "\"").at(0)));
     }
     return values;

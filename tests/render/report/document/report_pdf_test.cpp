@@ -294,5 +294,14 @@ TEST_F(ReportPdf, RefusesAPictureThatIsNone) {
     }
 }
 
+TEST_F(ReportPdf, IsTaggedForPeopleWhoHearItAndWastesNoPaper) {
+    auto report = whole_report();
+    report.wording.language = language("hu");
+    const auto check = fmt::format("/usr/bin/python3 {}/tests/render/report/document/pdf_access.py",
+                                   MACADAM_SOURCE_DIR);
+    EXPECT_EQ(by(check, report), "");
+    EXPECT_EQ(by(check, report, {.paper = us_letter}), "");
+}
+
 } // namespace
 } // namespace macadam

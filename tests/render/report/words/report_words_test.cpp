@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,7 +25,8 @@ using testing::town;
 
 /// What people read of a page: its text, with what stands in for figures and pictures.
 std::string text_of(const std::string& html) {
-    auto body = html.substr(html.find("<body>"));
+    auto body = html.substr(html.find("<body"));
+    body.resize(std::min(body.find("<script>"), body.size()));
     std::string text;
     for (const auto* const attribute : {" aria-label=\"", " alt=\""}) {
         for (const auto& words : between(body, attribute, "\"")) {

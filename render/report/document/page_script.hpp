@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace macadam {
+
+/// Returns the script of a page, which works without it: folds sections on phones, sorts tables by
+/// a click on a column's heading, and offers each table as a CSV file. It requests nothing.
+std::string_view page_script();
+
+/// Base64 of the script's SHA-256, by which the page's content security policy lets it run.
+inline constexpr std::string_view page_script_sha256 =
+    "aWi1dkDbN/Tz7KuQNu4knNV991ExAlxyf9GkPKQd4lA=";
+
+} // namespace macadam

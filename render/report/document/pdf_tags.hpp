@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// What Cairo 1.16 cannot say of the structure of a PDF. Lists are in the order of the elements.
+struct PdfAccess {
+    std::string language;
+    std::string title;
+    std::vector<std::string> figures;       ///< alternative texts
+    std::vector<std::string> heading_scope; ///< of TH: "Column" or "Row"
+};
+
+/// Returns a tagged PDF of Cairo as one that conforms to PDF/UA-1 (ISO 14289-1) as far as a program
+/// can tell: language and title, alternative texts, scopes of table headings, descriptions of
+/// links, and whatever lies outside the structure marked as an artifact. The same bytes give the
+/// same bytes. \throws InputError  if it is no PDF, or has other figures or headings than the
+/// lists.
+std::string accessible_pdf(const std::string& pdf, const PdfAccess& access);
+
+} // namespace macadam
