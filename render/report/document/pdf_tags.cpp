@@ -164,7 +164,6 @@ std::string accessible_pdf(const std::string& pdf, const PdfAccess& access) {
         QPDFWriter writer{document};
         writer.setOutputMemory();
         writer.setDeterministicID(true);
-        writer.setObjectStreamMode(qpdf_o_generate);
         writer.setMinimumPDFVersion("1.7");
         writer.write();
         const auto buffer = writer.getBufferSharedPointer();
