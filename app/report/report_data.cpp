@@ -6,7 +6,7 @@
 #include "app/render/change_map.hpp"
 #include "app/report/report_survey.hpp"
 #include "app/report/strip_pieces.hpp"
-#include "mapping/analysis/repair_need.hpp"
+#include "mapping/analysis/worst_sections.hpp"
 
 #include "render/scene/colour.hpp"
 #include "storage/networks/network_file.hpp"

@@ -1,6 +1,5 @@
 #include "render/report/document/html.hpp"
-#include "render/report/document/page_script.hpp"
-#include "render/report/document/stylesheet.hpp"
+#include "render/report/document/page_assets.hpp"
 #include "render/report/report.hpp"
 
 #include "estimator/common/utf8.hpp"

@@ -1,4 +1,4 @@
-#include "mapping/analysis/repair_need.hpp"
+#include "mapping/analysis/worst_sections.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 #include "render/report/report.hpp"
 
 #include "render/report/document/html.hpp"
-#include "render/report/document/page_script.hpp"
+#include "render/report/document/page_assets.hpp"
 #include "render/report/figures.hpp"
 #include "render/report/strip_chart.hpp"
 #include "storage/files/sha256.hpp"
@@ -191,7 +191,7 @@ TEST(Report, LetsOnlyItsOwnScriptRun) {
     for (std::size_t i = 0; i < hex.size(); i += 2) {
         bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
     }
-    EXPECT_EQ(base64(bytes), page_script_sha256) << "put this into page_script.hpp";
+    EXPECT_EQ(base64(bytes), page_script_sha256) << "put this into page_assets.hpp";
     EXPECT_THAT(
         report_html(town()),
         HasSubstr("default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src "

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace macadam {
+
+/// Returns the style sheet of a report, for narrow and wide, light and dark screens, and for paper.
+std::string report_style();
 
 /// Returns the script of a page, which works without it: folds sections on phones, sorts tables by
 /// a click on a column's heading, and offers each table as a CSV file. It requests nothing.
