@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <future>
 #include <random>
 #include <string>
@@ -54,14 +55,17 @@ protected:
 };
 
 TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFile) {
-    constexpr int trips = 24, orders = 2;
+    const bool all = std::getenv("MACADAM_TEST_ALL") != nullptr; // NOLINT(concurrency-mt-unsafe)
+    const int trips = all ? 40 : 24;
+    const unsigned orders = all ? 6 : 2;
     constexpr std::size_t workers = 4;
     const auto expected = file_digest(trips);
     for (unsigned order = 0; order < orders; ++order) {
-        const auto address = order == 0 ? database_.name() : database_.server().new_database("b");
+        const auto name = "b" + std::to_string(order);
+        const auto address = order == 0 ? database_.name() : database_.server().new_database(name);
         if (order > 0) {
-            static_cast<void>(new_store(folder_ / "b.gpkg"));
-            copy_to_server(folder_ / "b.gpkg", address, {}, {});
+            static_cast<void>(new_store(folder_ / (name + ".gpkg")));
+            copy_to_server(folder_ / (name + ".gpkg"), address, {}, {});
         }
         std::vector<int> deliveries;
         for (int number = 0; number < trips; ++number) {
@@ -94,6 +98,41 @@ TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFile)
         EXPECT_EQ(reader.info().trips, static_cast<std::size_t>(trips));
         EXPECT_EQ(reader.info().vehicles.size(), 3U);
     }
+}
+
+TEST_F(ServerImports, BesideWhoMaintainsTheDatabaseHaveTheDigestOfAFile) {
+    constexpr int trips = 18;
+    const std::vector<SegmentKey> resurfaced{{1, true, 2}, {1, false, 5}};
+    const auto maintain = [&](RoadStore store) {
+        store.maintenance.set_valid_from(resurfaced, 1'765'000'000'000, {});
+        RichTrip again{0};
+        for (auto& pass : again.passes) {
+            pass.iri_um += 300;
+        }
+        EXPECT_TRUE(stage_trip(store, again.record, again.passes, again.traces, again.events));
+        store.maintenance.commit_staged("method smoother");
+    };
+    add_rich_trip(*database_.import().trips, 0);
+    std::vector<std::future<void>> workers;
+    for (int worker = 0; worker < 3; ++worker) {
+        workers.push_back(std::async(std::launch::async, [&, worker] {
+            const auto open = open_server_import(database_.name());
+            for (int number = worker; number < trips; number += 3) {
+                add_rich_trip(*open.trips, number);
+                fuse_all(*open.trips);
+            }
+        }));
+    }
+    maintain(database_.maintain());
+    for (auto& worker : workers) {
+        worker.get();
+    }
+    fuse_all(*database_.import().trips);
+
+    auto file = new_store(folder_ / "file.gpkg");
+    import_rich_trips(*import_store_of(file).trips, trips);
+    maintain(file);
+    EXPECT_EQ(database_.read().digest(), file.digest());
 }
 
 TEST_F(ServerImports, LoseNoMarkThatIsSetWhileAChunkIsFused) {
