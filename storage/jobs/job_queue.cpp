@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -156,9 +157,16 @@ std::vector<Job> take_jobs(ServerConnection& server,
 
 std::size_t
 finish_jobs(ServerConnection& server, const JobTaker& taker, std::span<const JobEnd> ends) {
+    // In the order of their hashes, in which submit_logs() locks them, too.
+    std::vector<const JobEnd*> ordered;
+    for (const auto& end : ends) {
+        ordered.push_back(&end);
+    }
+    std::ranges::sort(ordered, {}, [](const JobEnd* end) { return end->job.sha256; });
     ServerTransaction one{server};
     std::size_t count = 0;
-    for (const auto& end : ends) {
+    for (const auto* const next : ordered) {
+        const auto& end = *next;
         auto values = ours(taker, end.job);
         values.insert(values.end(),
                       {std::string{name_of(end.state)}, end.reason, std::to_string(end.passes)});
@@ -207,8 +215,10 @@ std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit) {
 }
 
 void note_erased(ServerConnection& server, std::span<const Job> jobs) {
-    server.rows("UPDATE macadam.job SET has_object = false WHERE sha256 = ANY($1)"
-                " AND state IN ('imported', 'known')",
+    server.rows("WITH done AS (SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
+                " AND state IN ('imported', 'known') FOR UPDATE SKIP LOCKED)"
+                " UPDATE macadam.job SET has_object = false FROM done"
+                " WHERE job.sha256 = done.sha256",
                 {hashes_of(jobs)});
 }
 

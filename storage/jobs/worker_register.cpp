@@ -68,8 +68,11 @@ void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes
 }
 
 void renew_worker(ServerConnection& server, const JobTaker& taker, std::int64_t finished) {
-    server.rows("UPDATE macadam.job SET lease_until = now() + $2::interval"
-                " WHERE worker = $1 AND state = 'working'",
+    // A row that is locked is being finished, or submitted again: never wait for it.
+    server.rows("WITH mine AS (SELECT sha256 FROM macadam.job WHERE worker = $1"
+                " AND state = 'working' FOR UPDATE SKIP LOCKED)"
+                " UPDATE macadam.job SET lease_until = now() + $2::interval FROM mine"
+                " WHERE job.sha256 = mine.sha256",
                 {taker.worker, lease_of(taker) + " s"});
     server.rows("UPDATE macadam.worker SET seen_at = now(), finished = $2 WHERE name = $1",
                 {taker.worker, std::to_string(finished)});

@@ -4,20 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstddef>
 
 namespace macadam::testing {
 namespace {
-
-using namespace std::chrono_literals;
 
 TEST(Workers, LoseNothingInThreeHundredKillsOverThreeThousandTrips) {
     WorkerWorld world;
     constexpr std::size_t trips = 3000, kills = 300;
     world.make_trips(trips);
     ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
-    EXPECT_EQ(kill_workers(world, {.workers = 3, .kills = kills, .longest_life = 600ms}), kills);
+    kill_workers(world, {.workers = 3, .kills = kills, .trips = trips});
     expect_all_imported(world, trips);
 }
 

@@ -87,21 +87,25 @@ std::string WorkerWorld::status() const {
     return run.out;
 }
 
-std::size_t kill_workers(const WorkerWorld& world, const KillPlan& plan) {
+void kill_workers(const WorkerWorld& world, const KillPlan& plan) {
     std::mt19937 random{11};
     const auto start = [&] { return std::make_unique<PipedProgram>(world.worker_words()); };
     std::vector<std::unique_ptr<PipedProgram>> workers;
     for (std::size_t i = 0; i < plan.workers; ++i) {
         workers.push_back(start());
     }
-    const auto is_waiting = [&] {
-        const auto logs = nlohmann::json::parse(world.status()).at("logs");
-        return logs.at("queued").get<int>() + logs.at("working").get<int>() > 0;
+    ServerConnection server{world.address};
+    const auto finished = [&] {
+        return static_cast<std::size_t>(
+            server.number("SELECT count(*) FROM macadam.job WHERE state <> 'queued'"
+                          " AND state <> 'working'"));
     };
-    std::size_t kills = 0;
-    for (; kills < plan.kills && is_waiting(); ++kills) {
-        std::this_thread::sleep_for(std::chrono::milliseconds{
-            random() % static_cast<std::uint32_t>(plan.longest_life.count())});
+    constexpr std::uint32_t longest_ms = 300;
+    for (std::size_t kill = 0; kill < plan.kills; ++kill) {
+        while (finished() * plan.kills < kill * plan.trips) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{5});
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds{random() % longest_ms});
         auto& victim = workers[random() % workers.size()];
         victim->signal(SIGKILL);
         victim->wait();
@@ -111,7 +115,6 @@ std::size_t kill_workers(const WorkerWorld& world, const KillPlan& plan) {
         const auto end = worker->wait();
         EXPECT_EQ(end.exit_status, 0) << end.err;
     }
-    return kills;
 }
 
 void expect_all_imported(const WorkerWorld& world, std::size_t count) {

@@ -2,7 +2,6 @@
 
 #include "support/program/program.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -35,13 +34,13 @@ struct WorkerWorld {
     std::filesystem::path trips;
 };
 
-/// Kills workers at random moments while they work out so many trips.
-/// \returns how often one was killed.
+/// Kills workers at random moments, spread over the work, and starts others in their place until
+/// the queue is worked out.
 struct KillPlan {
     std::size_t workers, kills;
-    std::chrono::milliseconds longest_life;
+    std::size_t trips; ///< in the queue
 };
-std::size_t kill_workers(const WorkerWorld& world, const KillPlan& plan);
+void kill_workers(const WorkerWorld& world, const KillPlan& plan);
 
 /// Expects that the queue is worked out: every trip in the database once, none twice.
 void expect_all_imported(const WorkerWorld& world, std::size_t count);

@@ -152,6 +152,34 @@ TEST_F(JobQueue, RenewsTheLeasesOfAWorkerThatLives) {
     EXPECT_THAT(work_status(queue(), 1).workers, IsEmpty());
 }
 
+TEST_F(JobQueue, IsWorkedOutWhileTheSameLogsAreSubmittedAgainAndLeasesRenewed) {
+    const auto all = logs(100);
+    submit_logs(queue(), all);
+    std::jthread submitter{[&](const std::stop_token& stop) {
+        for (ServerConnection own{address_}; !stop.stop_requested();) {
+            submit_logs(own, all); // a deadlock would end the test
+            std::this_thread::sleep_for(5ms);
+        }
+    }};
+    std::jthread heart{[&](const std::stop_token& stop) {
+        for (ServerConnection own{address_}; !stop.stop_requested();) {
+            renew_worker(own, anna, 0);
+            std::this_thread::sleep_for(1ms);
+        }
+    }};
+    std::size_t finished = 0;
+    constexpr int most_rounds = 2000; // those that are just being submitted are passed over
+    for (int round = 0; round < most_rounds && finished < all.size(); ++round) {
+        std::vector<JobEnd> ends;
+        for (const auto& job : take_jobs(queue(), anna, 40, false)) {
+            ends.push_back({.job = job});
+        }
+        std::ranges::reverse(ends);
+        finished += finish_jobs(queue(), anna, ends);
+    }
+    EXPECT_EQ(finished, all.size());
+}
+
 TEST_F(JobQueue, ParksAJobAtWhichFiveWorkersEnded) {
     submit_logs(queue(), logs(3));
     EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(3));
