@@ -38,6 +38,8 @@ PROSE = {
     "libcairo2-dev": "LGPL-2.1 or MPL-1.1",
     "libfontconfig-dev": "MIT",
     "libosmesa6": "Expat",
+    "libqpdf-dev": "Apache-2.0 or Artistic-2.0",
+    "libqpdf29": "Apache-2.0 or Artistic-2.0",
     "libpython3.11-dev": "PSF-2.0",
     "python3.11-dev": "PSF-2.0",
     "libpython3.13-dev": "PSF-2.0",
