@@ -19,6 +19,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -47,17 +48,21 @@ void run_job_worker(const std::string& address,
         throw UsageError{fmt::format("--lease is {}, expected 1 to {} s", lease_s, max_lease_s)};
     }
     const auto objects = arguments.value("--objects");
+    auto import_arguments = upload_arguments(words_of(arguments));
+    JobWork work{
+        .address = address, .objects = {}, .import_arguments = std::move(import_arguments)};
+    if (objects) {
+        work.objects = absolute_location(*objects);
+    }
+    work.lease = std::chrono::seconds{lease_s};
+    work.until_empty = arguments.flag("--once");
+    work.keeps_logs = arguments.flag("--keep-logs");
+    work.takes_over = arguments.flag("--take-over");
+    work.tell = [&, json = arguments.flag("--json")](const TripReport& trip) {
+        print_report(trip, json, console);
+    };
     console.say("working; Ctrl-C ends");
-    work_out_jobs({.address = address,
-                   .objects = objects ? absolute_location(*objects) : std::string{},
-                   .import_arguments = upload_arguments(words_of(arguments)),
-                   .lease = std::chrono::seconds{lease_s},
-                   .until_empty = arguments.flag("--once"),
-                   .keeps_logs = arguments.flag("--keep-logs"),
-                   .takes_over = arguments.flag("--take-over"),
-                   .tell = [&, json = arguments.flag("--json")](
-                               const TripReport& trip) { print_report(trip, json, console); }},
-                  console);
+    work_out_jobs(work, console);
 }
 
 void run_worker(const Arguments& arguments, const Console& console) {
