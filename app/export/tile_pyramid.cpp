@@ -3,8 +3,10 @@
 #include "app/parallel/parallel_for.hpp"
 #include "estimator/common/error.hpp"
 #include "mapping/tiles/tile_generalisation.hpp"
+#include "render/tiles/mvt_background.hpp"
 #include "render/tiles/mvt_tile.hpp"
 #include "storage/files/gzip.hpp"
+#include "storage/store/reader/store_background.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -96,6 +98,9 @@ public:
         Levels base{has_parts ? new_level() : nullptr, has_both ? new_level() : nullptr};
         const auto tiles = source_.segments.tiles();
         each(tiles, [&](const TileId& tile) { draw_base(tile, base); });
+        if (source_.background && plan_.max_zoom > base_zoom) {
+            each(tiles_beside(tiles), [&](const TileId& tile) { draw_ground_within(tile); });
+        }
         if (has_parts) {
             draw_levels(std::move(base));
         }
@@ -137,6 +142,56 @@ private:
         count_.max_steps = std::max(count_.max_steps, steps);
     }
 
+    // ------------------------------------------------------------------------------ background
+
+    /// Returns a tile's layers with those of its background, gzipped.
+    std::string packed_with_ground(const TileId& tile, const std::string& roads) const {
+        if (source_.background) {
+            if (auto packed = gzipped(source_.background(tile) + roads);
+                packed.size() <= plan_.max_bytes) {
+                return packed;
+            }
+        }
+        return gzipped(roads);
+    }
+
+    /// Draws a tile without segments.
+    void draw_ground(const TileId& tile) {
+        if (const auto bytes = source_.background(tile); !bytes.empty()) {
+            if (const auto packed = gzipped(bytes); packed.size() <= plan_.max_bytes) {
+                put(tile, packed, 0);
+            }
+        }
+    }
+
+    /// Draws the tiles within a tile, which have no segments.
+    void draw_ground_within(const TileId& tile) {
+        for (unsigned quarter = 0; tile.zoom < plan_.max_zoom && quarter < 4; ++quarter) {
+            const auto child = child_of(tile, quarter);
+            if (child.zoom >= plan_.min_zoom) {
+                draw_ground(child);
+            }
+            draw_ground_within(child);
+        }
+    }
+
+    /// Returns the neighbours of tiles.
+    static std::vector<TileId> tiles_beside(const std::vector<TileId>& tiles) {
+        std::set<TileId> beside;
+        for (const auto& tile : tiles) {
+            const auto last = (std::uint32_t{1} << unsigned{tile.zoom}) - 1;
+            for (auto x = tile.x - std::min(tile.x, 1U); x <= std::min(tile.x + 1, last); ++x) {
+                for (auto y = tile.y - std::min(tile.y, 1U); y <= std::min(tile.y + 1, last); ++y) {
+                    beside.insert({tile.zoom, x, y});
+                }
+            }
+        }
+        for (const auto& tile : tiles) {
+            beside.erase(tile);
+        }
+        return {beside.begin(), beside.end()};
+    }
+
     // -------------------------------------------------------------------------------- segments
 
     void draw_base(const TileId& tile, const Levels& base) {
@@ -175,6 +230,12 @@ private:
             }
         }
         if (!has_any) {
+            if (source_.background) {
+                if (tile.zoom >= plan_.min_zoom) {
+                    draw_ground(tile);
+                }
+                draw_ground_within(tile);
+            }
             return;
         }
         if (tile.zoom >= plan_.min_zoom) {
@@ -194,9 +255,13 @@ private:
         for (const auto detail : {SegmentDetail::full, SegmentDetail::less}) {
             const auto bytes = vector_tile(tile, segments, detail, context());
             if (bytes.empty()) { // near the tile, but outside of it in tile units
+                if (source_.background) {
+                    draw_ground(tile);
+                }
                 return;
             }
-            if (const auto packed = gzipped(bytes); packed.size() <= plan_.max_bytes) {
+            if (const auto packed = packed_with_ground(tile, bytes);
+                packed.size() <= plan_.max_bytes) {
                 put(tile, packed, steps);
                 return;
             }
@@ -217,7 +282,7 @@ private:
         }
         const auto [parts, steps] = fitted(tile, parts_of(own, classes_));
         if (const auto bytes = vector_tile(tile, pointers_to(parts), context()); !bytes.empty()) {
-            put(tile, gzipped(bytes), steps_before + steps);
+            put(tile, packed_with_ground(tile, bytes), steps_before + steps);
         }
     }
 
@@ -313,8 +378,11 @@ private:
     }
 
     void draw_level(const PartLevel& level) {
-        each({level.shown.begin(), level.shown.end()},
-             [&](const TileId& tile) { draw_part_tile(tile, level); });
+        const std::vector<TileId> shown{level.shown.begin(), level.shown.end()};
+        each(shown, [&](const TileId& tile) { draw_part_tile(tile, level); });
+        if (source_.background) {
+            each(tiles_beside(shown), [&](const TileId& tile) { draw_ground(tile); });
+        }
     }
 
     void draw_part_tile(const TileId& tile, const PartLevel& level) {
@@ -346,7 +414,7 @@ private:
 
     std::string packed_tile(const TileId& tile, const std::vector<const RoadPart*>& parts) const {
         const auto bytes = vector_tile(tile, parts, context());
-        return bytes.empty() ? bytes : gzipped(bytes);
+        return bytes.empty() ? bytes : packed_with_ground(tile, bytes);
     }
 
     const TileSource& source_;
@@ -358,6 +426,36 @@ private:
     std::mutex mutex_; ///< guards all members below, put_, and levels being filled
     TileCount count_;
 };
+
+/// Background of a database that is read for tile after tile.
+struct OpenBackground {
+    explicit OpenBackground(const StoreReader& reader) : store{reader} {}
+
+    std::string layers_of(const TileId& tile) {
+        constexpr double margin = -1e-6; // of a tile: its neighbours do not count
+        const auto box = tile_box(tile, margin);
+        std::vector<BackgroundTile> tiles;
+        std::vector<PlaceName> places;
+        {
+            const std::lock_guard lock{mutex};
+            tiles = store.tiles(background_level_of_zoom(tile.zoom), box);
+            places = store.places(tile_box(tile));
+        }
+        return background_layers_of(tile, tiles, places);
+    }
+
+    StoreBackground store;
+    std::mutex mutex; ///< guards the database
+};
+
+/// Returns the function of TileSource; null if the database has no background.
+std::function<std::string(const TileId&)> background_of(const StoreReader& store) {
+    const auto background = std::make_shared<OpenBackground>(store);
+    if (background->store.size().is_empty()) {
+        return {};
+    }
+    return [background](const TileId& tile) { return background->layers_of(tile); };
+}
 
 } // namespace
 
@@ -385,6 +483,7 @@ void read_tile_source(const StoreReader& store,
     };
     store.visit(filter, take, StateDetail::tiles);
     source.segments.settle();
+    source.background = background_of(store);
 }
 
 TileCount make_vector_tiles(const TileSource& source,

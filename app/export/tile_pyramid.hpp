@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 
 namespace macadam {
@@ -33,12 +34,16 @@ struct TileSource {
     TileWords words;
     GeoBox box;
     std::size_t count = 0;
+
+    /// Returns the layers of a tile's background, uncompressed, "" without one. Any thread may call
+    /// it. Null: no tile has a background.
+    std::function<std::string(const TileId& tile)> background{};
 };
 
 /// Adds a segment; settle `source.segments` after the last one.
 void add(TileSource& source, const TileSegment& segment);
 
-/// Reads the segments with a state.
+/// Reads the segments with a state, and opens the background.
 /// \param source  must be new
 void read_tile_source(const StoreReader& store,
                       const SegmentFilter& filter,
@@ -61,6 +66,9 @@ using PutTile = std::function<void(const TileId&, std::string_view bytes)>;
 /// (mapping/tiles/tile_generalisation.hpp), which are made from those of the four tiles of the next
 /// zoom, so that memory does not grow with the database. A part belongs to the tile with the
 /// midpoints of its segments and is drawn in every tile it enters.
+///
+/// Tiles near segments have the background, also those without a segment; a tile that would be too
+/// large with it goes without.
 ///
 /// Tiles do not depend on the number of jobs.
 ///

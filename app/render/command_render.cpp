@@ -35,6 +35,7 @@ struct RenderOptions {
     MapStyle style;
     std::optional<BaseMapChoice> base;
     bool events;
+    bool background;
     std::optional<std::int64_t> since_ms; ///< changes since then instead of roughness
 };
 
@@ -59,6 +60,7 @@ RenderOptions parse_render(const Arguments& arguments, const Console& console) {
             .style = parse_style(arguments, console),
             .base = parse_base_map(arguments),
             .events = arguments.flag("--events"),
+            .background = !arguments.flag("--no-background"),
             .since_ms = parse_change(arguments)};
 }
 
@@ -109,7 +111,8 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .width_px = options.output.width_px,
                              .height_px = options.output.height_px,
                              .events =
-                                 options.events && can_show_events(store, options.filter, console)};
+                                 options.events && can_show_events(store, options.filter, console),
+                             .background = options.background};
     auto plan = options.since_ms ? load_change_map(store, request, *options.since_ms)
                                  : load_map(store, request);
     const auto progress = console.progress("drawing");
@@ -166,6 +169,10 @@ constexpr std::array map_options{
     base_opacity_option,
     grey_below_option,
     in_group("appearance", {"--events", "", "Also potholes, bumps, joints and rails, as symbols."}),
+    in_group("appearance",
+             {"--no-background",
+              "",
+              "Omit water, green, built-up land, buildings, railways and names of places."}),
     in_group("appearance", {"--no-labels", "", "Omit road names."}),
     preference(in_group(
         "appearance",

@@ -6,6 +6,7 @@
 #include "app/render/base_map_option.hpp"
 #include "app/render/box_visit.hpp"
 #include "estimator/common/error.hpp"
+#include "storage/store/reader/store_background.hpp"
 #include "storage/text/unit_system.hpp"
 #include "storage/text/utc.hpp"
 
@@ -303,6 +304,12 @@ MapPlan load_map(const StoreReader& store,
             lines ? lines(box)
                   : map_lines(store, box, classes_of(request), request.style.min_passes, filter),
             request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
+        if (request.background) {
+            const StoreBackground background{store};
+            plan.set_background({request.base ? std::vector<BackgroundTile>{}
+                                              : background.tiles(plan.background_level(), box),
+                                 background.places(box)});
+        }
     };
     const auto ground = plan.ground();
     load(ground);

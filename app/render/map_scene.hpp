@@ -51,7 +51,8 @@ struct MapRequest {
     std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
     std::shared_ptr<const BaseMap> base = nullptr;               ///< null: none
     int width_px = 0, height_px = 0;
-    bool events = false; ///< also potholes and other events
+    bool events = false;    ///< also potholes and other events
+    bool background = true; ///< water, green and the like, where the database has them
 };
 
 /// Plans a picture and loads its roads: the segments on it with their classes, the roads without a

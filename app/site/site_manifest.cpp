@@ -3,6 +3,7 @@
 #include "app/site/site_json.hpp"
 #include "mapping/style/class_colours.hpp"
 #include "render/report/words/messages.hpp"
+#include "storage/store/reader/store_background.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/utc.hpp"
 
@@ -102,6 +103,7 @@ manifest_json(const StoreReader& store, const SiteManifest& manifest, const Site
         .add("classes", JsonRaw{classes_json(*class_table(settings.class_table))})
         .add("highways", JsonRaw{json_string_array(totals.highways())})
         .add("tiles", JsonRaw{manifest.sources.tiles})
+        .add("background", !StoreBackground{store}.size().is_empty())
         .add("segments", JsonRaw{manifest.sources.segments})
         .add("names", JsonRaw{manifest.sources.names})
         .add("worst", "worst.json")

@@ -9,9 +9,13 @@
 #include "mapping/conflation/network_conflation.hpp"
 #include "mapping/inference/network_inference.hpp"
 #include "mapping/network/build_network.hpp"
+#include "storage/networks/background/osm_background.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/network_reader.hpp"
+#include "storage/networks/osm_reader.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/put_background.hpp"
 #include "storage/store/road_store.hpp"
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/text/text.hpp"
@@ -20,7 +24,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -37,6 +44,7 @@ struct InitOptions {
     TripPaths around;                            ///< trips whose surroundings to take of a map
     LayerColumns columns;
     std::string attribution;
+    bool background;
     double segment_length_m;
     PrivacyProfile privacy;
     std::int64_t max_trips_per_car_month; ///< 0: all
@@ -133,6 +141,10 @@ InitOptions parse_init(const Arguments& arguments) {
                        .highway = arguments.value("--highway-column").value_or(""),
                        .oneway = arguments.value("--oneway-column").value_or("")};
     options.attribution = arguments.value("--attribution").value_or("");
+    options.background = !arguments.flag("--no-background");
+    if (!options.background && is_traced) {
+        throw UsageError{"--no-background cannot be combined with --trace: trips have none"};
+    }
     return options;
 }
 
@@ -199,6 +211,76 @@ NetworkSource source_of(const std::filesystem::path& network, const std::string&
                                                    : attribution};
 }
 
+/// Background of a map, with `roads` read from it; null if it has none or none is wanted.
+BackgroundSource background_of(const std::filesystem::path& map,
+                               const RoadNetwork& roads,
+                               const InitOptions& options,
+                               const Console& console) {
+    if (!options.background || is_server_address(options.store.string())) {
+        return {}; // 'macadam copy' brings one to a server
+    }
+    if (!is_osm_file(map)) {
+        console.say(fmt::format("{}: without water, green, buildings and names of places, which "
+                                "only maps of OpenStreetMap give",
+                                map.string()));
+        return {};
+    }
+    return [&map, &console, box = background_box(roads)](const BackgroundSink& sink) {
+        const auto left_out =
+            read_osm_background(map, box, sink, console.progress("reading the background"));
+        if (const auto count = left_out.not_closed + left_out.too_long; count > 0) {
+            console.say(fmt::format(
+                "{}: background without {}: rings that are open or cross, or missing points",
+                map.string(),
+                counted(count, "object")));
+        }
+    };
+}
+
+/// Reads a background into a database and states its size and time.
+void add_background(const std::filesystem::path& store,
+                    const RoadNetwork& roads,
+                    const BackgroundSource& source,
+                    const Console& console) {
+    constexpr double bytes_per_mb = 1e6;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto size = put_background(store, background_box(roads), source);
+    if (!size.is_empty()) {
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+        console.say(fmt::format("{}: background of {:.1f} MB with {}, read in {:.1f} s",
+                                store.string(),
+                                static_cast<double>(size.bytes) / bytes_per_mb,
+                                counted(static_cast<std::size_t>(size.places), "name"),
+                                taken.count()));
+    }
+}
+
+/// Removes a new database and a new key unless kept.
+class NewDatabase {
+public:
+    explicit NewDatabase(std::filesystem::path store)
+        : store_{std::move(store)}, had_key_{std::filesystem::exists(key_file_of(store_))} {}
+    NewDatabase(const NewDatabase&) = delete;
+    NewDatabase& operator=(const NewDatabase&) = delete;
+    ~NewDatabase() {
+        if (goes_) {
+            std::error_code ignored;
+            std::filesystem::remove(store_, ignored);
+            if (!had_key_) {
+                std::filesystem::remove(key_file_of(store_), ignored);
+            }
+        }
+    }
+
+    void may_go() { goes_ = true; }
+    void keep() { goes_ = false; }
+
+private:
+    std::filesystem::path store_;
+    bool had_key_;
+    bool goes_ = false;
+};
+
 void make_store(const InitOptions& options, const Console& console) {
     auto ways = options.network ? ways_of(*options.network, options, console)
                                 : traced_ways(options, console);
@@ -214,7 +296,15 @@ void make_store(const InitOptions& options, const Console& console) {
     settings.max_trips_per_car_month = options.max_trips_per_car_month;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     tell_of_size(roads, options, console);
+    NewDatabase whole{options.store};
     const auto info = create_store(options.store, roads, settings, console);
+    whole.may_go();
+    if (const auto background = options.network
+                                    ? background_of(*options.network, roads, options, console)
+                                    : BackgroundSource{}) {
+        add_background(options.store, roads, background, console);
+    }
+    whole.keep();
     console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",
                             options.store.string(),
                             counted(way_count(roads), "way"),
@@ -246,6 +336,11 @@ void update_store(const InitOptions& options, const Console& console) {
                                          source_of(*options.update, options.attribution),
                                          console.progress("moving passes"));
     cache_network(store, after);
+    const auto background = background_of(*options.update, after, options, console);
+    const bool is_removed = !options.background && !is_server_address(options.store.string());
+    if (background || is_removed) {
+        add_background(options.store, after, background, console);
+    }
     if (options.json) {
         print(json_of(update));
     } else {
@@ -313,6 +408,10 @@ constexpr std::array options{
         {"--oneway-column", "NAME", "Line layers: column with yes, no or -1 (or FT, TF, B)."})),
     Option{
         "--attribution", "TEXT", "Copyright notice shown on maps.", "OpenStreetMap for OSM files"},
+    Option{"--no-background",
+           "",
+           "Without what maps show below the roads: water, green, built-up land, buildings, "
+           "railways and names of places."},
     Option{"--json", "", "With --update: report the changes as one JSON object."}};
 
 } // namespace
@@ -323,7 +422,7 @@ const Command init_command{
     .about =
         "Cuts every road into segments of about 20 m, separately for each direction in which "
         "it may be driven, and\nwrites them to a new GeoPackage. From OpenStreetMap it takes "
-        "the road classes that are open to cars.\n\n"
+        "the road classes that are open to cars, and what\nmaps show below them.\n\n"
         "Road maps of OpenStreetMap are free under the ODbL, which asks to name its contributors "
         "on maps, as is done here.\nDownload one with a browser; this program never uses the "
         "internet:\n"

@@ -44,6 +44,11 @@ public:
                       std::uint32_t rgb,
                       const LineEnds& ends) = 0;
 
+    /// Fills what rings enclose, each closed by its first point; those that run against others
+    /// around them are holes.
+    virtual void fill_rings(std::span<const std::span<const PixelPoint>> rings,
+                            std::uint32_t rgb) = 0;
+
     /// Writes a line of text. \param at  left end of the baseline
     virtual void write_text(const std::string& utf8,
                             const TextLook& look,

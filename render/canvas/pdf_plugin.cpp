@@ -134,6 +134,20 @@ public:
 
     void write_turned(const TurnedText& text) override { draw_turned(cairo_.get(), fonts_, text); }
 
+    void fill_rings(std::span<const std::span<const PixelPoint>> rings,
+                    std::uint32_t rgb) override {
+        cairo_new_path(cairo_.get());
+        for (const auto& ring : rings) {
+            cairo_new_sub_path(cairo_.get());
+            for (const auto& point : ring) {
+                cairo_line_to(cairo_.get(), point.x, point.y);
+            }
+            cairo_close_path(cairo_.get());
+        }
+        colour(rgb);
+        cairo_fill(cairo_.get());
+    }
+
     void lay(const PicturePart& part, std::span<const std::uint8_t> rgba) override {
         const Owned<cairo_surface_t> picture{
             cairo_image_surface_create(CAIRO_FORMAT_RGB24, part.width_px, part.height_px)};

@@ -2,10 +2,13 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/geometry/antimeridian.hpp"
+#include "render/background/background_painter.hpp"
+#include "render/background/background_shapes.hpp"
 #include "render/labels/label_painter.hpp"
 #include "render/map/base_map_blend.hpp"
 #include "render/map/event_symbols.hpp"
 #include "render/map/map_labels.hpp"
+#include "render/map/pdf_background.hpp"
 #include "render/map/pdf_labels.hpp"
 #include "render/map/pdf_roads.hpp"
 #include "render/roads/line_joining.hpp"
@@ -82,6 +85,22 @@ LabelInks label_inks(const Palette& colours) {
     return {colours.ink, colours.quiet_ink, colours.ground};
 }
 
+double denominator_of(const MapFrame& frame, const Layout& layout) {
+    const double middle_px = (layout.map.top + layout.map.bottom) / 2;
+    return scale_denominator(metres_per_px(frame, middle_px) * layout.unit);
+}
+
+std::vector<BackgroundShape> shown_background(std::span<const BackgroundTile> tiles,
+                                              const GeoBox& box,
+                                              const MapFrame& frame,
+                                              const Layout& layout) {
+    return background_shapes(tiles,
+                             frame,
+                             layout.map,
+                             {layout.unit, denominator_of(frame, layout)},
+                             (box.west_deg + box.east_deg) / 2);
+}
+
 /// Returns the base map resampled to a picture; empty if the scene has none.
 PaintPart ground_of(const MapScene& scene,
                     const MapStyle& style,
@@ -124,6 +143,10 @@ void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events
         placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_);
 }
 
+const BackgroundLevel& MapPlan::background_level() const {
+    return macadam::background_level(denominator_of(placement_.frame, layout_));
+}
+
 GeoBox MapPlan::ground() const {
     constexpr double by_far = 1.5;      // of the box's diagonal
     constexpr double edge_share = 0.02; // of the picture's diagonal
@@ -156,10 +179,17 @@ void MapPlan::draw(const TakeRows& take, const Progress& progress) {
     const auto colours = palette(style_);
     const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
     RoadPainter painter{colours, class_colours(style_, classes_of(style_).classes.size())};
+    auto ground = ground_of(scene_, style_, placement_.frame, size_);
+    if (!ground && !background_.tiles.empty()) {
+        ground = painted_background(
+            shown_background(background_.tiles, scene_.box, placement_.frame, layout_),
+            style_.theme,
+            colours.ground);
+    }
     painter.begin({.width_px = size_.width_px,
                    .height_px = size_.height_px,
                    .map = layout_.map,
-                   .ground = ground_of(scene_, style_, placement_.frame, size_)},
+                   .ground = std::move(ground)},
                   roads.strands,
                   roads.widths);
     const auto labels = map_labels(scene_, style_, layout_, placement_, roads.widths, setter_);
@@ -187,13 +217,20 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
     const auto colours = class_colours(style_, classes_of(style_).classes.size());
     const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
     const auto labels = map_labels(scene_, style_, layout_, placement_, roads.widths, setter_);
-    const auto ground = ground_of(scene_, style_, placement_.frame, size_);
+    const auto base = ground_of(scene_, style_, placement_.frame, size_);
     return pdf_file(sheet, [&](PdfPage& page) {
         page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
         page.fill({layout_.map}, theme.ground);
         page.begin_clip(layout_.map);
-        if (ground) {
-            page.lay(part_of(layout_.map), ground(part_of(layout_.map)));
+        if (base) {
+            page.lay(part_of(layout_.map), base(part_of(layout_.map)));
+        } else {
+            draw_background(
+                page,
+                shown_background(background_.tiles, scene_.box, placement_.frame, layout_),
+                style_.theme);
+        }
+        if (base || !background_.tiles.empty()) {
             draw_unmeasured_edges(page, roads.strands, roads.widths, theme.ground);
         }
         draw_roads(page, roads.strands, roads.widths, theme, colours);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "mapping/background/background.hpp"
+#include "mapping/background/background_levels.hpp"
+#include "mapping/background/background_pieces.hpp"
 #include "render/canvas/pdf_page.hpp"
 #include "render/map/layout.hpp"
 #include "render/map/map_surround.hpp"
@@ -7,9 +10,16 @@
 #include "render/text/text_shaping.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam {
+
+/// What a map shows below its roads.
+struct MapBackground {
+    std::vector<BackgroundTile> tiles{}; ///< of MapPlan::background_level(); none over a base map
+    std::vector<PlaceName> places{};     ///< the most important first
+};
 
 /// Map on a picture. Its texts are set once, when it is planned from a scene without lines; then
 /// the lines on its ground are loaded, beside which it places the legend; then it is drawn:
@@ -31,6 +41,12 @@ public:
     /// Sets the roads and the events on them. If the legend finds no corner without roads, the map
     /// makes room for it and needs the roads of a larger ground.
     void set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events = {});
+
+    /// Returns the level of the background that serves the map's scale.
+    const BackgroundLevel& background_level() const;
+
+    /// Sets what lies below the roads of the ground.
+    void set_background(MapBackground background) { background_ = std::move(background); }
 
     const MapScene& scene() const { return scene_; }
     const MapStyle& style() const { return style_; }
@@ -62,6 +78,7 @@ private:
     PictureSize size_;
     TypeSetter setter_;
     Layout layout_;
+    MapBackground background_;
     Placement placement_;
 };
 

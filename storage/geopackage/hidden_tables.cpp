@@ -14,7 +14,9 @@ INSERT INTO gpkg_contents (table_name, data_type, identifier)
 INSERT INTO gpkg_extensions
     SELECT table_name, NULL, 'macadam_inner_table',
            'Tables for the program alone: docs/reference/database.md', 'read-write'
-    FROM gpkg_contents WHERE data_type = 'macadam_inner_table';
+    FROM gpkg_contents WHERE data_type = 'macadam_inner_table'
+      AND table_name NOT IN (SELECT coalesce(table_name, '') FROM gpkg_extensions
+                             WHERE extension_name = 'macadam_inner_table');
 )";
 
 } // namespace

@@ -19,6 +19,7 @@ struct OsmVisitor {
         way;
     std::function<void(const OsmTags& tags, std::span<const OsmMember> members)> relation;
     std::function<void(std::uint64_t bytes)> pace; ///< bytes of the file read so far; may throw
+    std::function<void(const OsmTags& tags, const PackedPoint& at)> tagged_node{};
 };
 
 // Limits on the decompressed size of maps, against decompression bombs. Up to the free bytes, any

@@ -31,7 +31,7 @@ enum class Block : protozero::pbf_tag_type {
 enum class StringTable : protozero::pbf_tag_type { text = 1 };
 enum class Group : protozero::pbf_tag_type { node = 1, dense = 2, way = 3, relation = 4 };
 enum class Node : protozero::pbf_tag_type { id = 1, lat = 8, lon = 9 };
-enum class Dense : protozero::pbf_tag_type { id = 1, lat = 8, lon = 9 };
+enum class Dense : protozero::pbf_tag_type { id = 1, lat = 8, lon = 9, keys_values = 10 };
 enum class Object : protozero::pbf_tag_type { id = 1, keys = 2, values = 3 };
 enum class WayRefs : protozero::pbf_tag_type { refs = 8 };
 enum class Members : protozero::pbf_tag_type { roles = 8, ids = 9, types = 10 };
@@ -146,8 +146,9 @@ private:
     void read_group(Bytes bytes) {
         auto group = pbf_message<Group>(bytes);
         while (group.next()) {
-            const bool nodes = group.tag_and_type() == bytes_field(Group::node) && visitor_.node;
-            const bool dense = group.tag_and_type() == bytes_field(Group::dense) && visitor_.node;
+            const bool wants_nodes = visitor_.node || visitor_.tagged_node;
+            const bool nodes = group.tag_and_type() == bytes_field(Group::node) && wants_nodes;
+            const bool dense = group.tag_and_type() == bytes_field(Group::dense) && wants_nodes;
             const bool way = group.tag_and_type() == bytes_field(Group::way) && visitor_.way;
             const bool relation =
                 group.tag_and_type() == bytes_field(Group::relation) && visitor_.relation;
@@ -170,6 +171,7 @@ private:
         std::int64_t id = 0;
         std::int64_t lat = 0;
         std::int64_t lon = 0;
+        Tags tags;
         while (node.next()) {
             switch (node.tag_and_type()) {
             case number_field(Node::id):
@@ -181,9 +183,19 @@ private:
             case number_field(Node::lon):
                 lon = node.get_sint64();
                 break;
+            case bytes_field(Object::keys):
+                tags.keys = node.get_packed_uint32();
+                break;
+            case bytes_field(Object::values):
+                tags.values = node.get_packed_uint32();
+                break;
             default:
                 node.skip();
             }
+        }
+        tags_.clear();
+        if (visitor_.tagged_node) {
+            read_tags(tags);
         }
         give_node(id, lat, lon);
     }
@@ -193,6 +205,7 @@ private:
         Deltas ids;
         Deltas lats;
         Deltas lons;
+        Packed keys_values;
         while (dense.next()) {
             switch (dense.tag_and_type()) {
             case bytes_field(Dense::id):
@@ -203,6 +216,9 @@ private:
                 break;
             case bytes_field(Dense::lon):
                 lons = dense.get_packed_sint64();
+                break;
+            case bytes_field(Dense::keys_values):
+                keys_values = dense.get_packed_uint32();
                 break;
             default:
                 dense.skip();
@@ -217,6 +233,10 @@ private:
             }
             const auto at_lat = lat.add(lats.front());
             const auto at_lon = lon.add(lons.front());
+            tags_.clear();
+            if (visitor_.tagged_node) {
+                read_tags_of_dense_node(keys_values);
+            }
             give_node(id.add(ids.front()), at_lat, at_lon);
             ids.drop_front();
             lats.drop_front();
@@ -240,11 +260,18 @@ private:
                    : std::nullopt;
     }
 
-    void give_node(std::int64_t id, std::int64_t lat, std::int64_t lon) const {
+    /// Gives a node, whose tags were read.
+    void give_node(std::int64_t id, std::int64_t lat, std::int64_t lon) {
         const auto lat_e7 = place_e7(lat, lat_offset_, 90);
         const auto lon_e7 = place_e7(lon, lon_offset_, 180);
-        if (lat_e7 && lon_e7) {
+        if (!lat_e7 || !lon_e7) {
+            return;
+        }
+        if (visitor_.node) {
             visitor_.node(id, {*lat_e7, *lon_e7});
+        }
+        if (!tags_.empty()) {
+            visitor_.tagged_node(look_up(), {*lat_e7, *lon_e7});
         }
     }
 
@@ -254,8 +281,29 @@ private:
         Packed values;
     };
 
-    /// Looks up the tags; there must be as many keys as values, all in the string table.
+    /// Reads the tags of the next node of a block: keys and values in turn, then 0.
+    void read_tags_of_dense_node(Packed& keys_values) {
+        while (!keys_values.empty()) {
+            const auto key = keys_values.front();
+            keys_values.drop_front();
+            if (key == 0) {
+                return;
+            }
+            if (keys_values.empty()) {
+                fail("a node has different numbers of keys and values");
+            }
+            tags_.emplace_back(texts_.at(key), texts_.at(keys_values.front()));
+            keys_values.drop_front();
+        }
+    }
+
     OsmTags tags_of(const Tags& tags) {
+        read_tags(tags);
+        return look_up();
+    }
+
+    /// Reads the tags; there must be as many keys as values, all in the string table.
+    void read_tags(const Tags& tags) {
         tags_.clear();
         auto [keys, values] = tags;
         for (; !keys.empty() && !values.empty(); keys.drop_front(), values.drop_front()) {
@@ -264,6 +312,9 @@ private:
         if (!keys.empty() || !values.empty()) {
             fail("an object has different numbers of keys and values");
         }
+    }
+
+    OsmTags look_up() const {
         return [this](const char* key) -> const char* {
             const auto found = std::ranges::find(tags_, std::string_view{key}, [](const auto& tag) {
                 return std::string_view{tag.first};

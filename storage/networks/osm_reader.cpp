@@ -9,7 +9,6 @@
 #include <array>
 #include <exception>
 #include <iterator>
-#include <limits>
 #include <new>
 #include <optional>
 #include <string>
@@ -23,10 +22,6 @@ namespace {
 
 using NodeIds = std::vector<std::int64_t>;
 using ProgressThrottle = std::function<void(std::uint64_t bytes)>;
-
-void visit(const std::filesystem::path& file, const OsmVisitor& visitor) {
-    (file.extension() == ".pbf" ? visit_osm_pbf : visit_osm_xml)(file, visitor);
-}
 
 NodeIds without_repeats(std::span<const std::int64_t> nodes) {
     NodeIds ids;
@@ -57,7 +52,7 @@ NodeIds nodes_in(NetworkCut& cut, const std::filesystem::path& file, const Progr
             ids.push_back(id);
         }
     };
-    visit(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
+    visit_osm(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
     std::sort(ids.begin(), ids.end());
     return ids;
 }
@@ -104,37 +99,37 @@ WaysAndTurns ways_and_turns(const std::filesystem::path& file,
                             LeftOutWays& left_out,
                             const std::optional<WaysInCut>& wanted) {
     WaysAndTurns all;
-    visit(file,
-          {.node = {},
-           .way =
-               [&](std::int64_t id, const OsmTags& tags, std::span<const std::int64_t> nodes) {
-                   if (!is_drivable(tags)) {
-                       note_closed(tags, left_out);
-                       return;
-                   }
-                   if (wanted && !wanted->hold(nodes)) {
-                       return;
-                   }
-                   auto ids = without_repeats(nodes);
-                   if (runs_in_circles(ids)) {
-                       ++left_out.in_circles;
-                       return;
-                   }
-                   all.ways.push_back({.id = id,
-                                       .name = name_in(tags, id),
-                                       .highway = tags("highway"),
-                                       .oneway = oneway_of(tags),
-                                       .node_ids = std::move(ids),
-                                       .line = {},
-                                       .speed_limit_cmps = speed_limit_cmps_of(tags),
-                                       .turns = {}});
-               },
-           .relation =
-               [&](const OsmTags& tags, std::span<const OsmMember> members) {
-                   const auto found = turns_in(tags, members);
-                   all.turns.insert(all.turns.end(), found.begin(), found.end());
-               },
-           .pace = pace});
+    visit_osm(file,
+              {.node = {},
+               .way =
+                   [&](std::int64_t id, const OsmTags& tags, std::span<const std::int64_t> nodes) {
+                       if (!is_drivable(tags)) {
+                           note_closed(tags, left_out);
+                           return;
+                       }
+                       if (wanted && !wanted->hold(nodes)) {
+                           return;
+                       }
+                       auto ids = without_repeats(nodes);
+                       if (runs_in_circles(ids)) {
+                           ++left_out.in_circles;
+                           return;
+                       }
+                       all.ways.push_back({.id = id,
+                                           .name = name_in(tags, id),
+                                           .highway = tags("highway"),
+                                           .oneway = oneway_of(tags),
+                                           .node_ids = std::move(ids),
+                                           .line = {},
+                                           .speed_limit_cmps = speed_limit_cmps_of(tags),
+                                           .turns = {}});
+                   },
+               .relation =
+                   [&](const OsmTags& tags, std::span<const OsmMember> members) {
+                       const auto found = turns_in(tags, members);
+                       all.turns.insert(all.turns.end(), found.begin(), found.end());
+                   },
+               .pace = pace});
     return all;
 }
 
@@ -149,30 +144,13 @@ NodeIds used_nodes(const std::vector<Way>& ways) {
     return ids;
 }
 
-/// Placeholder for nodes that are missing in the file.
-constexpr PackedPoint nowhere{std::numeric_limits<std::int32_t>::max(), 0};
-
 /// Positions of the nodes `ids`, in rising order; `nowhere` if missing in the file.
 std::vector<PackedPoint>
 places_of(const NodeIds& ids, const std::filesystem::path& file, const ProgressThrottle& pace) {
-    std::vector<PackedPoint> places(ids.size(), nowhere);
-    auto at = ids.begin();
-    std::int64_t last = 0;
-    const auto take = [&](std::int64_t id, const PackedPoint& place) {
-        // Most files have their nodes in order; then one step forward finds the next.
-        if (id < last) {
-            at = std::lower_bound(ids.begin(), ids.end(), id);
-        }
-        last = id;
-        while (at != ids.end() && *at < id) {
-            ++at;
-        }
-        if (at != ids.end() && *at == id) {
-            places[static_cast<std::size_t>(at - ids.begin())] = place;
-        }
-    };
-    visit(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
-    return places;
+    NodePositions positions{ids};
+    const auto take = [&](std::int64_t id, const PackedPoint& at) { positions.see(id, at); };
+    visit_osm(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
+    return std::move(positions).found();
 }
 
 /// Reduces `way` to its longest part, by points, with known positions.
@@ -192,7 +170,7 @@ Way placed(Way way, const NodeIds& ids, const std::vector<PackedPoint>& places) 
     for (const auto id : way.node_ids) {
         const auto found = std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
         const auto& place = places[static_cast<std::size_t>(found)];
-        if (place == nowhere) {
+        if (place == NodePositions::nowhere) {
             end_part();
             continue;
         }
@@ -243,6 +221,25 @@ std::vector<Way> with_turns(std::vector<Way> ways, std::vector<TurnOutOfWay> tur
 }
 
 } // namespace
+
+void visit_osm(const std::filesystem::path& file, const OsmVisitor& visitor) {
+    (file.extension() == ".pbf" ? visit_osm_pbf : visit_osm_xml)(file, visitor);
+}
+
+void NodePositions::see(std::int64_t id, const PackedPoint& position) {
+    // Most files have their nodes in order; then one step forward finds the next.
+    if (id < last_) {
+        at_ =
+            static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
+    }
+    last_ = id;
+    while (at_ < ids_.size() && ids_[at_] < id) {
+        ++at_;
+    }
+    if (at_ < ids_.size() && ids_[at_] == id) {
+        positions_[at_] = position;
+    }
+}
 
 bool is_osm_file(const std::filesystem::path& file) {
     static constexpr std::array<std::string_view, 5> suffixes{

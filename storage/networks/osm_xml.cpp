@@ -117,13 +117,13 @@ private:
             refs_.clear();
             members_.clear();
             if (open_ == Open::node) {
-                give_node(attributes);
+                read_node(attributes);
             }
         } else if (name == "nd" && open_ == Open::way && visitor_.way) {
             refs_.push_back(id_in(attribute(attributes, "ref")));
         } else if (name == "member" && open_ == Open::relation && visitor_.relation) {
             add_member(attributes);
-        } else if (name == "tag" && (open_ == Open::way || open_ == Open::relation)) {
+        } else if (name == "tag" && (open_ != Open::node || visitor_.tagged_node)) {
             const char* const key = attribute(attributes, "k");
             const char* const value = attribute(attributes, "v");
             tags_.emplace_back(key == nullptr ? "" : key, value == nullptr ? "" : value);
@@ -150,11 +150,16 @@ private:
         return *id;
     }
 
-    void give_node(const XML_Char** attributes) const {
+    void read_node(const XML_Char** attributes) {
         const auto lat_e7 = place_e7(attribute(attributes, "lat"), 90);
         const auto lon_e7 = place_e7(attribute(attributes, "lon"), 180);
-        if (visitor_.node && !deleting_ && lat_e7 && lon_e7) {
-            visitor_.node(id_, {*lat_e7, *lon_e7});
+        place_.reset();
+        if (deleting_ || !lat_e7 || !lon_e7) {
+            return;
+        }
+        place_ = {*lat_e7, *lon_e7};
+        if (visitor_.node) {
+            visitor_.node(id_, *place_);
         }
     }
 
@@ -195,6 +200,11 @@ private:
         };
         if (name == "delete") {
             deleting_ = false;
+        } else if (name == "node" && open_ == Open::node) {
+            if (visitor_.tagged_node && place_ && !tags_.empty()) {
+                visitor_.tagged_node(tags, *place_);
+            }
+            open_ = Open::none;
         } else if (name == "way" && open_ == Open::way) {
             if (visitor_.way && !deleting_) {
                 visitor_.way(id_, tags, refs_);
@@ -214,6 +224,7 @@ private:
     bool deleting_ = false;
     std::size_t depth_ = 0;
     std::int64_t id_ = 0;
+    std::optional<PackedPoint> place_; ///< of the current node, if valid
     std::vector<std::pair<std::string, std::string>> tags_;
     std::vector<std::int64_t> refs_;
     std::vector<OsmMember> members_;

@@ -1,5 +1,6 @@
 // The map: measured roads by class, confidence or change, picked by click, touch or keyboard.
 import { firstPadding, paddingIn, roomy } from './first_picture.js';
+import { backgroundLayers, paintBackground } from './background.js';
 import { confidenceLimits, isWide, mapFilter } from './filter.js';
 import { el } from './dom.js';
 import { choose, state } from './state.js';
@@ -31,6 +32,7 @@ const offset = (side) => ['interpolate', ['linear'], ['zoom'], 11.9, 0, 12, 1.6 
 
 function styleOf(site) {
   const base = new URL('.', location.href).href;
+  const ground = backgroundLayers(site, css);
   const { pmtiles, url } = site.tiles;
   const side = site.left_hand ? -1 : 1;
   const roads = { type: 'line', source: 'roads', 'source-layer': layer };
@@ -47,6 +49,7 @@ function styleOf(site) {
     },
     layers: [
       { id: 'ground', type: 'background', paint: { 'background-color': css('--ground') } },
+      ...ground.below,
       { id: 'pointed', type: 'line', source: 'pointed', layout: { ...cap, 'line-cap': 'round' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 12), 'line-opacity': 0.55 } },
       { id: 'picked', type: 'line', source: 'picked', layout: { ...cap, 'line-cap': 'round' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 9) } },
       { ...roads, id: 'casing', layout: cap, paint: { ...placed, 'line-color': css('--casing'), 'line-width': width(1, 1.6) } },
@@ -54,6 +57,7 @@ function styleOf(site) {
       { ...roads, id: 'roads-wide', layout: cap, paint: { ...placed, 'line-color': colour(site), 'line-width': width(1, 0), 'line-dasharray': [1.2, 0.8] } },
       { ...roads, id: 'names', type: 'symbol', minzoom: 13, layout: { 'symbol-placement': 'line', 'text-field': ['coalesce', ['get', 'name'], ''], 'text-font': ['sans-serif'],
         'text-size': 12, 'symbol-spacing': 350 }, paint: { 'text-color': css('--ink'), 'text-halo-color': css('--ground'), 'text-halo-width': 1.6 } },
+      ...ground.above,
     ],
   };
 }
@@ -71,6 +75,7 @@ function paint(map, site, month) {
     ['pointed', 'line-color', '--focus'], ['names', 'text-color', '--ink'], ['names', 'text-halo-color', '--ground']]) {
     map.setPaintProperty(id, property, css(name));
   }
+  paintBackground(map, css);
 }
 
 const lineOf = (coordinates) => ({ type: 'Feature', properties: {}, geometry: { type: 'LineString', coordinates } });

@@ -48,6 +48,26 @@ CREATE TABLE way (
     speed_limit_cmps INTEGER NOT NULL,
     turns BLOB NOT NULL
 );
+CREATE TABLE background (
+    zoom INTEGER NOT NULL,
+    tile_x INTEGER NOT NULL,
+    tile_y INTEGER NOT NULL,
+    part INTEGER NOT NULL,
+    pieces BLOB NOT NULL,
+    PRIMARY KEY (zoom, tile_x, tile_y, part)
+) WITHOUT ROWID;
+CREATE TABLE place (
+    id INTEGER PRIMARY KEY NOT NULL,
+    name TEXT NOT NULL,
+    rank INTEGER NOT NULL,
+    lat_e7 INTEGER NOT NULL,
+    lon_e7 INTEGER NOT NULL,
+    population INTEGER NOT NULL
+);
+CREATE TABLE road_ref (
+    way_id INTEGER PRIMARY KEY NOT NULL,
+    ref TEXT NOT NULL
+);
 CREATE TABLE segment (
     fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
     geom LINESTRING,

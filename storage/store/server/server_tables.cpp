@@ -201,6 +201,25 @@ constexpr std::array state_change{
 constexpr std::array forgotten{
     ServerColumn{"mark", "text NOT NULL", "Hash of the hash of a deleted trip"}};
 
+constexpr std::array background{
+    ServerColumn{"zoom", "bigint NOT NULL", "Level of detail: zoom of its Web Mercator tiles"},
+    ServerColumn{"tile_x", "bigint NOT NULL", "Column of the tile"},
+    ServerColumn{"tile_y", "bigint NOT NULL", "Row of the tile"},
+    ServerColumn{"part", "bigint NOT NULL", "Part of the tile's content, from 0"},
+    ServerColumn{"pieces", "bytea NOT NULL", "Packed areas and lines, see visit_pieces()"}};
+
+constexpr std::array place{
+    ServerColumn{"id", "bigint NOT NULL", "Row; the most important place first"},
+    ServerColumn{"name", "text NOT NULL", "Name"},
+    ServerColumn{"rank", "bigint NOT NULL", "0 city, 1 town, 2 village, 3 suburb"},
+    ServerColumn{"lat_e7", "bigint NOT NULL", "Latitude, 1e-7 degrees"},
+    ServerColumn{"lon_e7", "bigint NOT NULL", "Longitude, 1e-7 degrees"},
+    ServerColumn{"population", "bigint NOT NULL", "Inhabitants; 0 = unknown"}};
+
+constexpr std::array road_ref{
+    ServerColumn{"way_id", "bigint NOT NULL", "Way"},
+    ServerColumn{"ref", "text NOT NULL", "Number of the road, as on its signs"}};
+
 using enum ServerUse;
 
 constexpr std::array tables{
@@ -316,7 +335,22 @@ constexpr std::array tables{
                 forgotten,
                 "PRIMARY KEY (mark)",
                 nullptr,
-                "forgotten"}};
+                "forgotten"},
+    ServerTable{"background",
+                "What maps show below the roads, in tiles",
+                road,
+                background,
+                "PRIMARY KEY (zoom, tile_x, tile_y, part)",
+                nullptr,
+                "background"},
+    ServerTable{"place", "Names of places", road, place, "PRIMARY KEY (id)", nullptr, "place"},
+    ServerTable{"road_ref",
+                "Numbers of roads",
+                road,
+                road_ref,
+                "PRIMARY KEY (way_id)",
+                nullptr,
+                "road_ref"}};
 
 } // namespace
 

@@ -1,6 +1,8 @@
 // Road databases made from maps: which part of them, and which maps are refused.
 
 #include "storage/networks/network_reader.hpp"
+#include "storage/store/reader/store_background.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -140,6 +142,52 @@ TEST_F(Init, RefusesToUpdateFromTheRoadsNearTripsOnly) {
     EXPECT_THAT(refusal({"--update", krems, "--around", at("a.gpx")}, 2),
                 HasSubstr("--around cannot be combined with --update: roads away from these trips "
                           "would be removed with their passes"));
+}
+
+/// A road beside a forest.
+std::string osm_with_forest() {
+    return "<osm version='0.6'><node id='1' version='1' lat='48.1' lon='16.1'/>"
+           "<node id='2' version='1' lat='48.101' lon='16.1'/>"
+           "<node id='3' version='1' lat='48.101' lon='16.102'/>"
+           "<node id='4' version='1' lat='48.102' lon='16.1'>"
+           "<tag k='place' v='village'/><tag k='name' v='Waldau'/></node>"
+           "<way id='7' version='1'><nd ref='1'/><nd ref='2'/><tag k='highway' v='primary'/></way>"
+           "<way id='8' version='1'><nd ref='1'/><nd ref='2'/><nd ref='3'/><nd ref='1'/>"
+           "<tag k='landuse' v='forest'/></way></osm>";
+}
+
+TEST_F(Init, StoresWhatLiesBelowTheRoadsAndSaysHowMuchThatIs) {
+    write_file(at("town.osm"), osm_with_forest());
+    const auto made = init({"--network", at("town.osm")});
+    ASSERT_EQ(made.exit_status, 0) << made.err;
+    EXPECT_THAT(made.err,
+                ContainsRegex("roads.gpkg: background of 0.0 MB with 1 name, read in [0-9.]+ s"));
+    EXPECT_EQ(StoreBackground{StoreReader::open(store_)}.size().tiles, 3);
+    const auto removed =
+        run_macadam({"init", store_, "--update", at("town.osm"), "--no-background"});
+    EXPECT_EQ(removed.exit_status, 0) << removed.err;
+    EXPECT_TRUE(StoreBackground{StoreReader::open(store_)}.size().is_empty());
+    run_macadam({"init", store_, "--update", at("town.osm")}); // as an upgraded database gets one
+    EXPECT_EQ(StoreBackground{StoreReader::open(store_)}.size().tiles, 3);
+}
+
+TEST_F(Init, LeavesTheBackgroundOutOnDemandAndTellsThatOtherMapsHaveNone) {
+    write_file(at("town.osm"), osm_with_forest());
+    const auto without = init({"--network", at("town.osm"), "--no-background"});
+    EXPECT_EQ(without.exit_status, 0) << without.err;
+    EXPECT_THAT(without.err, Not(HasSubstr("background")));
+    EXPECT_TRUE(StoreBackground{StoreReader::open(store_)}.size().is_empty());
+    write_file(at("lines.geojson"),
+               R"({"type":"Feature","properties":{},"geometry":{"type":"LineString",)"
+               R"("coordinates":[[16.1,48.1],[16.1,48.101]]}})");
+    const auto other = run_macadam({"init", at("b.gpkg"), "--network", at("lines.geojson")});
+    EXPECT_EQ(other.exit_status, 0) << other.err;
+    EXPECT_THAT(other.err,
+                HasSubstr("lines.geojson: without water, green, buildings and names of places, "
+                          "which only maps of OpenStreetMap give"));
+    write_file(at("a.gpx"), gpx_at(48.410, 15.610));
+    EXPECT_THAT(refusal({"--trace", at("a.gpx"), "--no-background"}, 2),
+                HasSubstr("--no-background cannot be combined with --trace"));
 }
 
 TEST_F(Init, RefusesAMapWithoutRoadsAndSaysWhatIsThere) {

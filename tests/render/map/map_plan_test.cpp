@@ -1,5 +1,9 @@
 #include "render/map/map_plan.hpp"
 
+#include "mapping/tiles/tile_grid.hpp"
+#include "render/background/background_painter.hpp"
+#include "render/scene/colour.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -63,6 +67,52 @@ TEST(MapPlan, NeedsTheRoadsOfItsWholePicture) {
     constexpr double deg_per_m = 180 / (3.14159265358979 * 6378137);
     EXPECT_LT(ground.west_deg, place.left * deg_per_m);
     EXPECT_GT(ground.east_deg, (place.left + size.width_px * place.per_px) * deg_per_m);
+}
+
+/// A tile around the town that is water alone.
+BackgroundTile water_of(const MapPlan& plan) {
+    const auto zoom = plan.background_level().zoom;
+    const auto range = tiles_of(town, zoom);
+    BackgroundTile tile{{zoom, range.first_x, range.first_y}, {}};
+    append_piece(tile.pieces,
+                 {BackgroundKind::water,
+                  {{{0, 0},
+                    {background_cells, 0},
+                    {background_cells, background_cells},
+                    {0, background_cells}}}});
+    return tile;
+}
+
+std::size_t pixels_of(const std::vector<std::uint8_t>& rgb, std::uint32_t colour) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        count +=
+            (std::uint32_t{rgb[i]} << 16U | std::uint32_t{rgb[i + 1]} << 8U | rgb[i + 2]) == colour;
+    }
+    return count;
+}
+
+TEST(MapPlan, DrawsItsBackgroundBelowTheRoadsInEveryThemeAndInAnyBands) {
+    for (const auto theme :
+         {MapStyle::Theme::light, MapStyle::Theme::dark, MapStyle::Theme::print}) {
+        MapStyle style;
+        style.theme = theme;
+        const auto picture = [&](int band_px, bool with_water) {
+            MapPlan plan{words(), style, {size.width_px, size.height_px, band_px}};
+            plan.set_roads(one_street());
+            if (with_water) {
+                plan.set_background({{water_of(plan)}, {}});
+            }
+            return drawn(plan);
+        };
+        const auto colour = background_colour(BackgroundKind::water, theme);
+        const auto wet = picture(0, true);
+        EXPECT_GT(pixels_of(wet, colour), 50'000U);
+        EXPECT_EQ(pixels_of(picture(0, false), colour), 0U);
+        EXPECT_EQ(picture(37, true), wet);
+        const auto road = class_colours(style, 3)[1];
+        EXPECT_GT(pixels_of(wet, road), 100U);
+    }
 }
 
 TEST(MapPlan, NeedsRoadsFarAroundInAProjection) {

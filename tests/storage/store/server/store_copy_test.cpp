@@ -4,6 +4,7 @@
 
 #include "mapping/passes/chunk_trace.hpp"
 #include "storage/postgres/server_connection.hpp"
+#include "storage/store/put_background.hpp"
 #include "support/files/files.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/roads/store_world.hpp"
@@ -28,6 +29,7 @@ using ::testing::Not;
 using testing::passes_of;
 using testing::PostgresServer;
 using testing::refusal_of;
+using testing::small_country;
 using testing::test_folder;
 using testing::trip_record;
 
@@ -69,6 +71,15 @@ void make_rich_store(const fs::path& file) {
     store.maintenance.set_valid_from(resurfaced, 1'761'000'000'000, {});
     store.importer.refresh();
     add_trip(store, trip_record(5), passes_of(5));
+    const auto box = background_box(small_country());
+    put_background(file, box, [&](const BackgroundSink& sink) {
+        const auto at = [&](double north, double east) {
+            return packed({box.south_deg + north, box.west_deg + east});
+        };
+        sink.feature({BackgroundKind::water, {{at(0, 0), at(0.01, 0), at(0.01, 0.01)}}});
+        sink.place({"Lyon", PlaceRank::city, {box.north_deg, box.east_deg}, 520'000});
+        sink.road_ref({1, "D 12"});
+    });
 }
 
 /// Content of all tables, but for those that SQLite and the GeoPackage keep for themselves, and for
