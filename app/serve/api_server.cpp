@@ -1,17 +1,15 @@
 #include "app/serve/api_server.hpp"
 
-#include "app/cli/arguments.hpp"
 #include "app/http/static_folder.hpp"
+#include "app/serve/api_routes.hpp"
 #include "app/serve/live/live_content.hpp"
 #include "app/serve/live/picture_tiles.hpp"
-#include "app/serve/ogc/api_description.hpp"
+#include "app/serve/ogc/collections.hpp"
 #include "app/serve/ogc/features_api.hpp"
-#include "app/serve/ogc/per_version.hpp"
 #include "app/serve/ogc/tiles_api.hpp"
 #include "app/serve/served_store.hpp"
 #include "app/serve/server_metrics.hpp"
 #include "app/serve/trips/trips_api.hpp"
-#include "app/site/site_page.hpp"
 #include "app/uploads/upload_workers.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/utc.hpp"
@@ -29,7 +27,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace macadam {
 namespace {
@@ -41,166 +38,6 @@ using namespace std::chrono_literals;
 constexpr auto drain_time = 900ms;
 
 constexpr std::uint64_t max_trip_bytes = 64U << 20U; // four hours of a phone at 60 Hz
-
-// -------------------------------------------------------------------------------------- routes
-
-using PathWords = std::vector<std::string>;
-
-struct Pages {
-    FeaturesApi features;
-    const LiveContent& live;
-    PictureTiles& pictures;
-};
-
-/// Answers with the latest tiles, whose version is that of the page; null before the first.
-template <typename Answer>
-HttpResponse with_tiles(const Pages& pages, const ApiContext& context, const Answer& answer) {
-    const auto tiles = pages.live.tiles();
-    return answer(ApiContext{.request = context.request,
-                             .store = context.store,
-                             .version = tiles ? tiles->version() : context.version,
-                             .base = context.base,
-                             .is_operator = context.is_operator},
-                  tiles.get());
-}
-
-HttpResponse tile_sets(Pages& pages, const ApiContext& context, const PathWords& /*words*/) {
-    return with_tiles(pages, context, tile_sets_page);
-}
-
-HttpResponse tile_set(Pages& pages, const ApiContext& context, const PathWords& words) {
-    return with_tiles(pages, context, [&](const ApiContext& of_tiles, const TileSet* tiles) {
-        return tile_set_page(of_tiles, tiles, words[0]);
-    });
-}
-
-HttpResponse tile(Pages& pages, const ApiContext& context, const PathWords& words) {
-    return with_tiles(pages, context, [&](const ApiContext& of_tiles, const TileSet* tiles) {
-        return tile_response(
-            of_tiles, tiles, pages.pictures, words[0], {words[1], words[2], words[3]});
-    });
-}
-
-HttpResponse tile_json(Pages& pages, const ApiContext& context, const PathWords& /*words*/) {
-    return with_tiles(pages, context, tile_json_page);
-}
-
-/// Path of the API: words in braces stand for any.
-struct Route {
-    std::string_view pattern;
-    HttpResponse (*answer)(Pages& pages, const ApiContext& context, const PathWords& words);
-};
-
-// clang-format off
-constexpr std::array routes{
-    Route{"/", [](Pages&, const ApiContext& c, const PathWords&) { return landing_page(c); }},
-    Route{"/conformance", [](Pages&, const ApiContext& c, const PathWords&) { return conformance_page(c); }},
-    Route{"/api", [](Pages& p, const ApiContext& c, const PathWords&) { return openapi_page(c, p.features.collections_for(false)); }},
-    Route{"/collections", [](Pages& p, const ApiContext& c, const PathWords&) { return p.features.collections(c); }},
-    Route{"/collections/{id}", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.collection(c, w[0]); }},
-    Route{"/collections/{id}/queryables", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.queryables(c, w[0]); }},
-    Route{"/collections/{id}/items", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.items(c, w[0]); }},
-    Route{"/collections/{id}/items/{feature}",
-          [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.item(c, w[0], w[1]); }},
-    Route{"/tileMatrixSets", [](Pages&, const ApiContext& c, const PathWords&) { return matrix_sets_page(c); }},
-    Route{"/tileMatrixSets/{set}", [](Pages&, const ApiContext& c, const PathWords& w) { return matrix_set_page(c, w[0]); }},
-    Route{"/tiles", tile_sets},
-    Route{"/tiles/{set}", tile_set},
-    Route{"/tiles/{set}/{z}/{row}/{column}", tile},
-    Route{"/collections/segments/tiles", tile_sets},
-    Route{"/collections/segments/tiles/{set}", tile_set},
-    Route{"/collections/segments/tiles/{set}/{z}/{row}/{column}", tile},
-    Route{"/map/tiles", tile_sets},
-    Route{"/map/tiles/{set}", tile_set},
-    Route{"/map/tiles/{set}/{z}/{row}/{column}", tile},
-    Route{"/tiles.json", tile_json},
-};
-// clang-format on
-
-/// Matches a path; `words` are what stands for the words in braces.
-bool matches(std::string_view pattern, std::string_view path, PathWords& words) {
-    words.clear();
-    while (true) {
-        const auto wanted = pattern.substr(0, pattern.find('/'));
-        const auto given = path.substr(0, path.find('/'));
-        if (wanted.starts_with('{')) {
-            if (given.empty()) {
-                return false;
-            }
-            words.emplace_back(given);
-        } else if (wanted != given) {
-            return false;
-        }
-        const bool pattern_ends = wanted.size() == pattern.size();
-        if (pattern_ends || given.size() == path.size()) {
-            return pattern_ends && given.size() == path.size();
-        }
-        pattern.remove_prefix(wanted.size() + 1);
-        path.remove_prefix(given.size() + 1);
-    }
-}
-
-/// Tests for a browser at the first page, which gets the map rather than the landing page.
-bool wants_map(const HttpRequest& request) {
-    const auto accept = request.header("accept");
-    return request.path == "/" && !request.parameter("f") &&
-           accept.find("text/html") < accept.find("json");
-}
-
-/// Returns a file of the recorder, which is there before the first map; `std::nullopt` if it is
-/// none.
-std::optional<HttpResponse> recorder_file(const std::string& path) {
-    if (!path.starts_with("/drive/")) {
-        return std::nullopt;
-    }
-    try {
-        return file_response(site_page_folder(), path);
-    } catch (const InputError&) { // this build has no page
-        return std::nullopt;
-    }
-}
-
-/// Answers from the API, or else from the files of the web page.
-HttpResponse answered(Pages& pages, const ApiContext& context) {
-    if (const auto page = wants_map(context.request) ? pages.live.page() : nullptr) {
-        if (auto response = file_response(page->path() / "site", "/")) {
-            response->headers.emplace_back("Vary", "Accept");
-            return *std::move(response);
-        }
-    }
-    PathWords words;
-    for (const auto& [pattern, answer] : routes) {
-        if (!matches(pattern, context.request.path, words)) {
-            continue;
-        }
-        HttpResponse response;
-        try {
-            response = answer(pages, context, words);
-        } catch (const UsageError& error) {
-            response = http_problem(400, error.what());
-        } catch (const SelectionTooLong&) {
-            response = http_problem(503, "this selection takes too long; narrow it by bbox");
-        } catch (const StillComputing&) {
-            response = http_problem(503, "this is being computed");
-            response.headers.emplace_back("Retry-After", "2");
-        } catch (const InputError& error) {
-            if (std::string_view{error.what()}.starts_with(context.store.file().string())) {
-                throw; // of the database, for its operator alone
-            }
-            response = http_problem(400, error.what());
-        }
-        response.route = pattern;
-        return response;
-    }
-    if (const auto page = pages.live.page()) {
-        if (auto response = file_response(page->path() / "site", context.request.path)) {
-            return *std::move(response);
-        }
-    } else if (auto response = recorder_file(context.request.path)) {
-        return *std::move(response);
-    }
-    return http_problem(404, "there is no such page");
-}
 
 // -------------------------------------------------------------------------------------- lanes
 
@@ -366,13 +203,14 @@ void serve_database(const std::filesystem::path& file,
         const auto version = store.version();
         const bool is_listing = request.path.starts_with("/collections");
         try {
-            auto response = answered(pages,
-                                     {.request = request,
-                                      .store = store.reader(worker),
-                                      .version = version,
-                                      .base = base_of(request, address),
-                                      .is_operator = is_listing && trips.is_of_operator(request),
-                                      .trips_version = store.trips_version()});
+            auto response =
+                answer_reading(pages,
+                               {.request = request,
+                                .store = store.reader(worker),
+                                .version = version,
+                                .base = base_of(request, address),
+                                .is_operator = is_listing && trips.is_of_operator(request),
+                                .trips_version = store.trips_version()});
             if (reception.only_with_token) {
                 keep_private(response);
             }

@@ -11,10 +11,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <compare>
-#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/http/http_message.hpp"
+#include "app/serve/live/live_content.hpp"
+#include "app/serve/live/picture_tiles.hpp"
+#include "app/serve/ogc/api_context.hpp"
+#include "app/serve/ogc/features_api.hpp"
+
+namespace macadam {
+
+/// What a server of a database shows.
+struct Pages {
+    FeaturesApi features;
+    const LiveContent& live;
+    PictureTiles& pictures;
+};
+
+/// Answers a request to read from the API, or else from the files of the web page.
+/// \throws InputError  if the database cannot be read.
+HttpResponse answer_reading(Pages& pages, const ApiContext& context);
+
+} // namespace macadam
