@@ -15,10 +15,11 @@
 namespace macadam {
 namespace {
 
-constexpr int width_px = 1200, height_px = 900;            // sharp in a browser's window
-constexpr int first_width_px = 640, first_height_px = 480; // soon there: at most half a megabyte
-constexpr double min_side_deg = 0.002;                     // of the first picture, of longitude
-constexpr double max_shape = 3; // of the first picture, long to short side
+// Sharp in a browser's window; the first picture is soon there: at most half a megabyte.
+constexpr PictureSize size{.width_px = 1200, .height_px = 900};
+constexpr PictureSize first_size{.width_px = 640, .height_px = 480};
+constexpr double min_side_deg = 0.002; // of the first picture, of longitude
+constexpr double max_shape = 3;        // of the first picture, long to short side
 
 /// Draws a picture, or says why not.
 bool is_drawn(const Progress& progress, const Console& console, const std::function<void()>& draw) {
@@ -58,12 +59,10 @@ bool write_overview(const StoreReader& store,
                     const std::string& title,
                     bool left_hand,
                     const Console& console) {
-    MapRequest request{
-        .filter = filter, .title = title, .width_px = width_px, .height_px = height_px};
+    MapRequest request{.filter = filter, .title = title, .size = size};
     request.style.classes = class_table(store.settings().class_table);
     request.style.left_hand_traffic = left_hand;
-    const PictureOutput output{
-        .file = file, .width_px = width_px, .height_px = height_px, .crs = {}};
+    const PictureOutput output{.file = file, .size = size, .crs = {}};
     const auto progress = console.progress("drawing");
     return is_drawn(progress, console, [&] {
         write_picture(load_map(store, request), output, "", progress, [] {});
@@ -76,7 +75,7 @@ std::optional<GeoBox> write_first_pictures(const StoreReader& store,
                                            const GeoBox& bounds,
                                            bool left_hand,
                                            const Console& console) {
-    MapRequest request{.filter = filter, .width_px = first_width_px, .height_px = first_height_px};
+    MapRequest request{.filter = filter, .size = first_size};
     request.filter.box = picture_box(bounds);
     request.style.classes = class_table(store.settings().class_table);
     request.style.left_hand_traffic = left_hand;
@@ -85,11 +84,8 @@ std::optional<GeoBox> write_first_pictures(const StoreReader& store,
     const auto draw = [&](std::string_view name, MapStyle::Theme theme, std::uint32_t ground) {
         request.style.theme = theme;
         request.style.colours.ground = ground;
-        const PictureOutput output{.file = folder / name,
-                                   .width_px = first_width_px,
-                                   .height_px = first_height_px,
-                                   .bare = true,
-                                   .crs = {}};
+        const PictureOutput output{
+            .file = folder / name, .size = first_size, .bare = true, .crs = {}};
         write_picture(load_map(store, request), output, "", progress, [] {});
     };
     const bool drawn = is_drawn(progress, console, [&] {

@@ -108,8 +108,7 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .style = options.style,
                              .projection = projection_of(options.output),
                              .base = base.map,
-                             .width_px = options.output.width_px,
-                             .height_px = options.output.height_px,
+                             .size = options.output.size,
                              .events =
                                  options.events && can_show_events(store, options.filter, console),
                              .background = options.background};
@@ -142,6 +141,7 @@ constexpr std::array output_options{
            "Show what became rougher or smoother since this day: 2026-03-01 or 2026-03."}};
 constexpr std::array map_options{
     picture_size_option,
+    dpi_option,
     crs_option,
     world_file_option,
     bare_option,
@@ -200,6 +200,8 @@ const Command render_command{.name = "render",
                                         "EPSG:3006\n"
                                         "  macadam render roads.gpkg -o map.pdf --paper A3 "
                                         "--landscape\n"
+                                        "  macadam render roads.gpkg -o poster.png --size A2 "
+                                        "--dpi 300\n"
                                         "  macadam render roads.gpkg -o map.png --base "
                                         "aerial.mbtiles\n"
                                         "  macadam render roads.gpkg -o map.png --classes five "

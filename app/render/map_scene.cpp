@@ -281,7 +281,8 @@ std::vector<MapLine> map_lines(const StoreReader& store,
             state = found != selected->end() ? &found->second : nullptr;
         }
         if (state != nullptr) {
-            line.iri_class = static_cast<int>(class_index(classes, state->iri_um / 1000.0));
+            line.iri_mm_per_m = state->iri_um / 1000.0;
+            line.iri_class = static_cast<int>(class_index(classes, line.iri_mm_per_m));
             line.few_passes = has_few_passes(state->passes, min_passes);
             line.certain = is_certain(state->iri_um, state->sd_um);
         }
@@ -297,8 +298,7 @@ MapPlan load_map(const StoreReader& store,
     if (selects(filter) && style.words.unmeasured == LegendWords{}.unmeasured) {
         style.words.unmeasured = "Not selected or measured";
     }
-    MapPlan plan{
-        scene_around(store, request), std::move(style), {request.width_px, request.height_px}};
+    MapPlan plan{scene_around(store, request), std::move(style), request.size};
     const auto load = [&](const GeoBox& box) {
         plan.set_roads(
             lines ? lines(box)

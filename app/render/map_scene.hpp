@@ -50,7 +50,7 @@ struct MapRequest {
     MapStyle style{};                                            ///< includes the class table
     std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
     std::shared_ptr<const BaseMap> base = nullptr;               ///< null: none
-    int width_px = 0, height_px = 0;
+    PictureSize size{};
     bool events = false;    ///< also potholes and other events
     bool background = true; ///< water, green and the like, where the database has them
 };

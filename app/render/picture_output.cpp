@@ -14,9 +14,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -24,7 +25,11 @@ namespace {
 
 using Kind = PictureOutput::Kind;
 
-constexpr double px_per_inch = 150; // text of a map of 1240 px on A4 is readable
+constexpr double pdf_px_per_inch = 150; // the page's own unit; its lines and letters are vectors
+constexpr double screen_dpi = 96;       // CSS's pixel
+constexpr double paper_dpi = 300;
+constexpr double min_dpi = 24;
+constexpr double max_dpi = 1200;
 constexpr double mm_per_inch = 25.4;
 constexpr std::string_view web_mercator = "EPSG:3857";
 
@@ -43,31 +48,123 @@ constexpr std::array papers{Paper{"A0", 841, 1189},
                             Paper{"legal", 215.9, 355.6},
                             Paper{"tabloid", 279.4, 431.8}};
 
-std::pair<int, int> size_of(const std::string& text) {
-    int width = 0;
-    int height = 0;
+struct SizeMm {
+    double width, height;
+};
+
+struct SizePx {
+    int width, height;
+};
+
+/// Parses "WxH"; `std::nullopt` if the text is anything else.
+template <typename Number>
+std::optional<std::pair<Number, Number>> two_numbers(std::string_view text) {
+    Number width{};
+    Number height{};
     const auto* const end = text.data() + text.size();
     const auto first = std::from_chars(text.data(), end, width);
-    const bool crossed = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
-    const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
-    const auto fits = [&](int px) { return px >= min_image_px && px <= max_image_px; };
-    if (!crossed || second.ec != std::errc{} || second.ptr != end || !fits(width) ||
-        !fits(height)) {
-        throw UsageError{fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
-                                     text,
-                                     min_image_px,
-                                     max_image_px)};
+    if (first.ec != std::errc{} || first.ptr == end || *first.ptr != 'x') {
+        return {};
     }
-    return {width, height};
+    const auto second = std::from_chars(first.ptr + 1, end, height);
+    if (second.ec != std::errc{} || second.ptr != end) {
+        return {};
+    }
+    return std::pair{width, height};
 }
 
-std::pair<int, int> paper_size(const std::string& name, bool landscape) {
+std::optional<SizeMm> paper_size(const std::string& name, bool landscape) {
     const auto* const paper = std::ranges::find_if(
         papers, [&](const Paper& each) { return in_lower_case(each.name) == in_lower_case(name); });
-    assert(paper != papers.end()); // paper_option checks its words
-    const auto px = [](double mm) { return int(std::lround(mm / mm_per_inch * px_per_inch)); };
-    const std::pair size{px(paper->width_mm), px(paper->height_mm)};
-    return landscape ? std::pair{size.second, size.first} : size;
+    if (paper == papers.end()) {
+        return {};
+    }
+    return landscape ? SizeMm{paper->height_mm, paper->width_mm}
+                     : SizeMm{paper->width_mm, paper->height_mm};
+}
+
+/// Parses a size on paper: millimetres or the name of a paper.
+std::optional<SizeMm> size_on_paper(const std::string& text, bool landscape) {
+    if (text.ends_with("mm")) {
+        const auto size = two_numbers<double>(std::string_view{text}.substr(0, text.size() - 2));
+        return size ? std::optional<SizeMm>{{size->first, size->second}} : std::nullopt;
+    }
+    return paper_size(text, landscape);
+}
+
+SizePx in_px(const SizeMm& size, double px_per_inch) {
+    // A side beyond any limit stays beyond it, and an int holds it.
+    const auto px = [&](double mm) {
+        return int(std::lround(std::clamp(mm / mm_per_inch * px_per_inch, -1.0, 1e6)));
+    };
+    return {px(size.width), px(size.height)};
+}
+
+void expect_px_in_range(const std::string& text, const SizePx& size, bool on_paper, double dpi) {
+    const auto fits = [](int px) { return px >= min_image_px && px <= max_image_px; };
+    if (!fits(size.width) || !fits(size.height)) {
+        throw UsageError{
+            on_paper ? fmt::format("--size is '{}', which is {} x {} pixels at {:g} dpi, expected "
+                                   "both from {} to {} pixels",
+                                   text,
+                                   size.width,
+                                   size.height,
+                                   dpi,
+                                   min_image_px,
+                                   max_image_px)
+                     : fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
+                                   text,
+                                   min_image_px,
+                                   max_image_px)};
+    }
+}
+
+/// Size of a picture or of a .pdf's sheet.
+struct SheetSize {
+    SizePx px;
+    double px_per_inch;
+};
+
+std::optional<double> parse_dpi(const Arguments& arguments) {
+    const auto dpi = arguments.number("--dpi");
+    if (dpi && !(min_dpi <= *dpi && *dpi <= max_dpi)) {
+        throw UsageError{
+            fmt::format("--dpi is '{:g}', expected {:g} to {:g}", *dpi, min_dpi, max_dpi)};
+    }
+    return dpi;
+}
+
+SheetSize picture_size(const Arguments& arguments) {
+    const auto text = arguments.value("--size").value_or(std::string{default_picture_size});
+    const auto dpi = parse_dpi(arguments);
+    if (const auto mm = size_on_paper(text, arguments.flag("--landscape"))) {
+        const double px_per_inch = dpi.value_or(paper_dpi);
+        const auto px = in_px(*mm, px_per_inch);
+        expect_px_in_range(text, px, true, px_per_inch);
+        return {px, px_per_inch};
+    }
+    const auto px = two_numbers<int>(text);
+    if (!px) {
+        throw UsageError{fmt::format("--size is '{}', expected pixels such as 1600x1200, "
+                                     "millimetres such as 420x594mm, or a paper size such as A2",
+                                     text)};
+    }
+    expect_px_in_range(text, {px->first, px->second}, false, 0);
+    return {{px->first, px->second}, dpi.value_or(screen_dpi)};
+}
+
+SheetSize pdf_size(const Arguments& arguments) {
+    const auto paper = arguments.value("--paper").value_or(std::string{default_paper});
+    const auto text = arguments.value("--size").value_or(paper);
+    const auto mm = size_on_paper(text, arguments.flag("--landscape"));
+    if (!mm) {
+        throw UsageError{fmt::format("--size is '{}', expected for a .pdf millimetres such as "
+                                     "420x594mm, or --paper",
+                                     text)};
+    }
+    const auto px = in_px(*mm, pdf_px_per_inch);
+    expect_px_in_range(text, px, true, pdf_px_per_inch);
+    return {px, pdf_px_per_inch};
 }
 
 Kind kind_of(const std::string& file) {
@@ -85,12 +182,18 @@ Kind kind_of(const std::string& file) {
 }
 
 void expect_fitting(const Arguments& arguments, Kind kind) {
-    if (kind == Kind::pdf && arguments.value("--size")) {
-        throw UsageError{"--size is for pictures, expected --paper with a .pdf"};
+    if (kind == Kind::pdf && arguments.is_given("--dpi")) {
+        throw UsageError{"--dpi is for pictures; a .pdf has lines and letters instead of pixels"};
     }
-    if (kind != Kind::pdf && (arguments.is_given("--paper") || arguments.flag("--landscape"))) {
-        throw UsageError{"--paper and --landscape are for a .pdf, expected --size with a "
-                         "picture"};
+    if (kind == Kind::pdf && arguments.is_given("--paper") && arguments.value("--size")) {
+        throw UsageError{"--paper and --size cannot be combined"};
+    }
+    if (kind != Kind::pdf && arguments.is_given("--paper")) {
+        throw UsageError{"--paper is for a .pdf, expected --size A4 with a picture"};
+    }
+    if (kind != Kind::pdf && arguments.flag("--landscape") &&
+        !paper_size(arguments.value("--size").value_or(""), false)) {
+        throw UsageError{"--landscape turns paper, expected --size A4 with a picture"};
     }
     if (const auto crs = arguments.value("--crs"); crs && crs->empty()) {
         throw UsageError{"--crs is '', expected a projection such as EPSG:3006"};
@@ -103,16 +206,20 @@ void expect_fitting(const Arguments& arguments, Kind kind) {
 /// Returns the size of a bare map: the sheet's, or the largest of the box's own shape within the
 /// requested size of a picture.
 PictureSize bare_size(const MapScene& scene, const PictureOutput& output) {
+    const auto& most = output.size;
     if (output.kind == Kind::pdf) {
-        return {output.width_px, output.height_px};
+        return most;
     }
     const auto plane = plane_extent(scene.box, scene.projection.get());
-    const double scale = std::min(output.width_px / std::max(1e-12, plane.width_rad),
-                                  output.height_px / std::max(1e-12, plane.height_rad));
-    const auto side = [&](double rad, int most) {
-        return std::clamp(int(std::lround(rad * scale)), min_image_px, most);
+    const double scale = std::min(most.width_px / std::max(1e-12, plane.width_rad),
+                                  most.height_px / std::max(1e-12, plane.height_rad));
+    const auto side = [&](double rad, int most_px) {
+        return std::clamp(int(std::lround(rad * scale)), min_image_px, most_px);
     };
-    return {side(plane.width_rad, output.width_px), side(plane.height_rad, output.height_px)};
+    auto size = most;
+    size.width_px = side(plane.width_rad, most.width_px);
+    size.height_px = side(plane.height_rad, most.height_px);
+    return size;
 }
 
 /// Plans the map without anything around it.
@@ -159,7 +266,7 @@ void give_png(MapPlan& plan,
               const PngWriter::PutBytes& put,
               const Progress& progress,
               const ExpectValid& expect_valid) {
-    PngWriter png{plan.size().width_px, plan.size().height_px, put};
+    PngWriter png{plan.size(), put};
     plan.draw([&](auto rows) { png.add(rows); }, progress);
     png.finish();
     expect_valid();
@@ -203,15 +310,12 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
                          "--format png or pdf"};
     }
     expect_fitting(arguments, kind);
-    const auto size =
-        kind == Kind::pdf
-            ? paper_size(arguments.value("--paper").value_or(std::string{default_paper}),
-                         arguments.flag("--landscape"))
-            : size_of(arguments.value("--size").value_or(std::string{default_picture_size}));
+    const auto size = kind == Kind::pdf ? pdf_size(arguments) : picture_size(arguments);
     return {.file = *file,
             .kind = kind,
-            .width_px = size.first,
-            .height_px = size.second,
+            .size = {.width_px = size.px.width,
+                     .height_px = size.px.height,
+                     .px_per_inch = size.px_per_inch},
             .world_file = arguments.flag("--world-file"),
             .bare = arguments.flag("--bare"),
             .to_standard_output = to_standard_output,
@@ -246,7 +350,7 @@ std::string write_picture(MapPlan plan,
     if (output.bare) {
         plan = bare_plan(plan, output);
     }
-    const auto [width_px, height_px, band_px] = plan.size();
+    const auto [width_px, height_px, band_px, px_per_inch] = plan.size();
     if (output.kind == Kind::pdf) {
         const auto pdf = plan.pdf({.width_px = double(width_px),
                                    .height_px = double(height_px),

@@ -15,7 +15,7 @@ struct PictureOutput {
     enum class Kind : std::uint8_t { png, geotiff, pdf };
     std::filesystem::path file;
     Kind kind = Kind::png;
-    int width_px = 0, height_px = 0; ///< size of the picture or the sheet of paper
+    PictureSize size{};              ///< of the picture or the sheet of paper
     bool world_file = false;         ///< georeference beside a .png
     bool bare = false;               ///< map only, up to the edges
     bool to_standard_output = false; ///< instead of the file
@@ -43,8 +43,12 @@ inline constexpr Option picture_size_option =
     in_group("page",
              {"--size",
               "WxH",
-              "Pixels, 256 to 32768 per side; lines and text scale with it.",
+              "Size: pixels (1600x1200), millimetres (420x594mm) or a paper size (A2). Lines, "
+              "letters and detail follow the map's scale on paper.",
               default_picture_size});
+inline constexpr Option dpi_option = in_group(
+    "page",
+    {"--dpi", "N", "Pixels per inch of a picture on paper.", "96 with pixels, 300 with paper"});
 inline constexpr Option world_file_option = rare(in_group(
     "page",
     {"--world-file", "", "Write .pgw and .png.aux.xml beside a .png, to georeference it."}));

@@ -114,8 +114,7 @@ MapScene whole_scene(const StoreReader& store, const MapStyle& style, const Segm
     const auto plan = load_map(store,
                                {.filter = filter,
                                 .style = unadorned(style),
-                                .width_px = max_width_px,
-                                .height_px = max_height_px});
+                                .size = {.width_px = max_width_px, .height_px = max_height_px}});
     auto scene = plan.scene();
     scene.subtitle.clear();    // on the page
     scene.attribution.clear(); // likewise

@@ -2,6 +2,7 @@
 
 #include "mapping/tiles/line_merging.hpp"
 #include "mapping/tiles/line_simplification.hpp"
+#include "mapping/tiles/run_joining.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -64,43 +65,6 @@ std::vector<Run> runs_of(const std::vector<RoadPart>& parts,
     return runs;
 }
 
-/// Returns the neighbour of a run that is nearest in IRI; on a tie, the one before.
-std::size_t neighbour_of(const std::vector<Run>& runs, std::size_t i) {
-    if (i == 0 || i + 1 == runs.size()) {
-        return i == 0 ? 1 : i - 1;
-    }
-    const auto apart = [&](std::size_t other) {
-        return std::abs(iri_of(runs[other].values) - iri_of(runs[i].values));
-    };
-    return apart(i - 1) <= apart(i + 1) ? i - 1 : i + 1;
-}
-
-/// Joins a run with the one after it, and the result with neighbours now of the same class.
-void join_at(std::vector<Run>& runs, std::size_t i, const ClassTable& table) {
-    const auto take_next = [&](std::size_t at) {
-        join(runs[at], runs[at + 1]);
-        runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(at) + 1);
-    };
-    take_next(i);
-    if (i + 1 < runs.size() && is_alike(runs[i], runs[i + 1], table)) {
-        take_next(i);
-    }
-    if (i > 0 && is_alike(runs[i - 1], runs[i], table)) {
-        take_next(i - 1);
-    }
-}
-
-void join_short_runs(std::vector<Run>& runs, double min_length, const ClassTable& table) {
-    while (runs.size() > 1) {
-        const auto shortest = std::ranges::min_element(runs, {}, &Run::length);
-        if (shortest->length >= min_length) {
-            return;
-        }
-        const auto i = static_cast<std::size_t>(shortest - runs.begin());
-        join_at(runs, std::min(i, neighbour_of(runs, i)), table);
-    }
-}
-
 std::vector<WorldPoint> line_of(const std::vector<RoadPart>& parts, std::span<const PartUse> uses) {
     std::vector<WorldPoint> line;
     const auto add = [&](const WorldPoint& point) {
@@ -124,7 +88,14 @@ joined(const std::vector<RoadPart>& parts, const Generalisation& how, const Clas
     std::vector<RoadPart> joined;
     for (const auto& chain : part_chains(parts)) {
         auto runs = runs_of(parts, chain, table);
-        join_short_runs(runs, how.min_run_px * how.pixel, table);
+        join_short_runs(
+            runs,
+            how.min_run_px * how.pixel,
+            [&](const Run& a, const Run& b) { return is_alike(a, b, table); },
+            join,
+            [](const Run& a, const Run& b) {
+                return std::abs(iri_of(a.values) - iri_of(b.values));
+            });
         for (auto& run : runs) {
             run.values.line = line_of(
                 parts, std::span{chain}.subspan(run.first_use, run.past_use - run.first_use));

@@ -34,7 +34,7 @@ struct TurnedText {
     std::uint32_t halo_rgb = 0;
 };
 
-/// Page of a PDF file. Shapes remain vectors and text remains text, in embedded fonts: DejaVu Sans,
+/// Page of a PDF file. Shapes remain vectors and text remains text, in embedded fonts: Noto Sans,
 /// and for other scripts the fonts installed on the machine.
 class PdfPage : public DrawTarget {
 public:

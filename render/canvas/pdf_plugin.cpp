@@ -16,7 +16,7 @@ namespace macadam {
 namespace {
 
 constexpr double pt_per_inch = 72;
-constexpr const char* family = "DejaVu Sans"; // as in pictures
+constexpr const char* family = "Noto Sans"; // as in pictures
 
 struct Release {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }

@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include <cassert>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -52,19 +53,23 @@ struct PngWriter::Impl {
     png_infop info;
 };
 
-PngWriter::PngWriter(int width_px, int height_px, PutBytes put)
-    : impl_{std::make_unique<Impl>(width_px, std::move(put))} {
+PngWriter::PngWriter(const PictureSize& size, PutBytes put)
+    : impl_{std::make_unique<Impl>(size.width_px, std::move(put))} {
     auto* const png = impl_->png;
     png_set_write_fn(png, &impl_->bytes, append, nullptr);
     png_set_IHDR(png,
                  impl_->info,
-                 png_uint_32(width_px),
-                 png_uint_32(height_px),
+                 png_uint_32(size.width_px),
+                 png_uint_32(size.height_px),
                  8,
                  PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    if (size.px_per_inch > 0) {
+        const auto px_per_m = png_uint_32(std::lround(size.px_per_inch / 0.0254));
+        png_set_pHYs(png, impl_->info, px_per_m, px_per_m, PNG_RESOLUTION_METER);
+    }
     png_set_compression_level(png, quick);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_write_info(png, impl_->info);
@@ -90,7 +95,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
     assert(image.rgb.size() == std::size_t(image.width) * std::size_t(image.height) * 3);
 
     std::vector<std::uint8_t> bytes;
-    PngWriter writer{image.width, image.height, [&](std::string_view more) {
+    PngWriter writer{{image.width, image.height}, [&](std::string_view more) {
                          bytes.insert(bytes.end(), more.begin(), more.end());
                      }};
     writer.add(image.rgb);

@@ -14,7 +14,7 @@ class PngWriter {
 public:
     using PutBytes = std::function<void(std::string_view bytes)>;
 
-    PngWriter(int width_px, int height_px, PutBytes put);
+    PngWriter(const PictureSize& size, PutBytes put);
     ~PngWriter();
 
     /// Appends some whole rows.

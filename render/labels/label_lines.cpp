@@ -269,6 +269,22 @@ std::vector<NamedPart> named_chains(const std::vector<NamedPart>& parts) {
     return chains;
 }
 
+std::vector<JunctionCore> junction_cores(std::span<const NamedPart> parts) {
+    std::vector<JunctionCore> cores;
+    for (const auto& [place, arms] : places_of(parts)) {
+        if (arms.size() < 3) {
+            continue;
+        }
+        const auto& [part, at_end, away] = arms.front();
+        JunctionCore core{at_end ? parts[part].line.back() : parts[part].line.front(), 0};
+        for (const auto& arm : arms) {
+            core.radius_px = std::max(core.radius_px, parts[arm.part].half_width_px);
+        }
+        cores.push_back(core);
+    }
+    return cores;
+}
+
 double length_px(std::span<const PixelPoint> line) {
     double length = 0;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {

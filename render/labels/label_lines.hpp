@@ -24,6 +24,17 @@ std::vector<NamedPart> parts_in(std::span<const RoadName> roads, const PixelBox&
 /// \param parts  as returned by parts_in
 std::vector<NamedPart> named_chains(const std::vector<NamedPart>& parts);
 
+/// Area in which roads meet.
+struct JunctionCore {
+    PixelPoint middle;
+    double radius_px; ///< half the width of its widest road
+};
+
+/// Returns the positions at which three or more parts end.
+///
+/// \param parts  as returned by parts_in
+std::vector<JunctionCore> junction_cores(std::span<const NamedPart> parts);
+
 double length_px(std::span<const PixelPoint> line);
 
 } // namespace macadam

@@ -79,6 +79,15 @@ TextMask label_mask(const Label& label, TypeSetter& setter) {
     return mask;
 }
 
+void draw_shield(DrawTarget& target, const PixelBox& box, const LabelInks& inks) {
+    const double line_px = std::max(1.0, std::round(box.height() / 16));
+    const double radius_px = box.height() / 5;
+    target.fill({box, radius_px}, inks.ink);
+    target.fill({{box.left + line_px, box.top + line_px, box.right - line_px, box.bottom - line_px},
+                 radius_px - line_px},
+                inks.halo);
+}
+
 void draw_labels(Canvas& canvas,
                  std::span<const Label> labels,
                  const PlanePixel& corner,
@@ -87,7 +96,17 @@ void draw_labels(Canvas& canvas,
     const PixelPoint origin{double(-corner.x), double(-corner.y)};
     for (const auto& label : labels) {
         const auto mask = label_mask(label, setter);
-        canvas.write(halo_of(mask, label.halo_px), origin, inks.halo);
+        if (label.is_shield) {
+            const auto& box = label.box;
+            draw_shield(canvas,
+                        {box.left + origin.x,
+                         box.top + origin.y,
+                         box.right + origin.x,
+                         box.bottom + origin.y},
+                        inks);
+        } else {
+            canvas.write(halo_of(mask, label.halo_px), origin, inks.halo);
+        }
         canvas.write(mask, origin, label.quiet ? inks.quiet_ink : inks.ink);
     }
 }

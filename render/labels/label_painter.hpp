@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/canvas/canvas.hpp"
+#include "render/canvas/draw_target.hpp"
 #include "render/labels/label_placement.hpp"
 
 #include <cstdint>
@@ -14,6 +15,11 @@ struct LabelInks {
     std::uint32_t quiet_ink;
     std::uint32_t halo;
 };
+
+/// Draws the frame of a road's number.
+///
+/// \param box  on the target
+void draw_shield(DrawTarget& target, const PixelBox& box, const LabelInks& inks);
 
 /// Pixel of the plane, in whole pixels.
 struct PlanePixel {

@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-// In units of the em, for DejaVu Sans; Noto's fonts differ little.
+// In units of the em, for Noto Sans.
 constexpr double capitals = 0.76; // with room for accents above capitals in many scripts
 constexpr double descenders = 0.22;
 
@@ -133,6 +133,10 @@ std::optional<std::vector<ClusterPose>> set_along(const LabelPath& base,
                           width_px});
     }
     return places;
+}
+
+LetterExtent letter_extent(const TextLook& look) {
+    return {-descenders * look.size_px, capitals * look.size_px};
 }
 
 std::vector<PixelPoint> corners_of(const ClusterPose& place, const TextLook& look) {

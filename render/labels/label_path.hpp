@@ -54,6 +54,12 @@ std::optional<std::vector<ClusterPose>> set_along(const LabelPath& base,
                                                   bool forward,
                                                   const LabelConfig& config);
 
+/// Extent of letters above the baseline, from descenders to the top of capitals.
+struct LetterExtent {
+    double low_px, high_px;
+};
+LetterExtent letter_extent(const TextLook& look);
+
 /// Returns the corners of a cluster's letters, from its descenders to the top of its capitals.
 std::vector<PixelPoint> corners_of(const ClusterPose& place, const TextLook& look);
 

@@ -1,295 +1,205 @@
 #include "render/labels/label_placement.hpp"
 
+#include "render/labels/label_candidates.hpp"
 #include "render/labels/label_lines.hpp"
-#include "render/labels/label_occupancy.hpp"
 #include "render/labels/label_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
 namespace macadam {
 namespace {
 
-constexpr int last_main_rank = 2; // secondary roads
-constexpr double main_size = 1.1; // size of their names relative to others
-constexpr double same_name = 0.8; // of repeat_px: minimum distance between two labels of a name
+// Size of the names of ranks relative to those of tertiary roads.
+constexpr std::array size_of_rank{1.15, 1.15, 1.08, 1.0, 0.92, 0.85};
+constexpr double shield_size = 0.9; // likewise, of all ranks
+constexpr double same_name = 0.8;   // of repeat_px: minimum distance between two labels of a name
 
-// Cost of a label position, from barely noticeable to clearly disturbing.
-constexpr double cost_of_cover = 4;
-constexpr double cost_of_bend = 3;
-constexpr double cost_of_distance = 0.6; // halfway to the next label
-constexpr double cost_below = 0.08;      // names are usually above their road
+constexpr std::size_t max_moved = 2;     // labels that make room for another
+constexpr std::size_t max_attempts = 30; // positions for which others are moved
 
-struct Road {
-    NamedPart part;
-    LabelPath path;
-};
-
-/// Baseline of a road's names: on its left or right, read along it or against it.
-struct BaseLine {
-    LabelPath path;
-    LabelSide side;
-    bool forward;
-};
-
-/// Candidate position of a label.
-struct Candidate {
-    std::vector<ClusterPose> places;
-    std::vector<PixelBox> boxes; ///< of its clusters, with halo
-    PixelBox box;                ///< union of boxes
-    PixelPoint middle;
-    double cost;
-};
-
-PixelBox box_around(std::span<const PixelPoint> points, double margin_px) {
-    PixelBox box{points[0].x, points[0].y, points[0].x, points[0].y};
-    for (const auto& point : points) {
-        box = {std::min(box.left, point.x),
-               std::min(box.top, point.y),
-               std::max(box.right, point.x),
-               std::max(box.bottom, point.y)};
-    }
-    return {
-        box.left - margin_px, box.top - margin_px, box.right + margin_px, box.bottom + margin_px};
-}
-
-PixelBox both(const PixelBox& a, const PixelBox& b) {
-    return {std::min(a.left, b.left),
-            std::min(a.top, b.top),
-            std::max(a.right, b.right),
-            std::max(a.bottom, b.bottom)};
-}
-
-bool overlap(const PixelBox& a, const PixelBox& b) {
-    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-}
-
-std::vector<Road> roads_by_weight(const std::vector<NamedPart>& parts) {
-    std::vector<Road> roads;
-    for (auto& chain : named_chains(parts)) {
-        LabelPath path{chain.line};
-        roads.push_back({std::move(chain), std::move(path)});
-    }
-    std::ranges::stable_sort(roads, {}, [](const Road& road) {
-        return std::tuple{road.part.quiet, road.part.rank, -road.path.length_px()};
-    });
-    return roads;
-}
-
-/// Places labels road by road; placed labels are not moved.
+/// Places labels in their order of importance.
 class Placing {
 public:
-    Placing(const LabelCell& cell,
-            const LabelConfig& config,
-            const std::vector<NamedPart>& parts,
-            TypeSetter& setter)
-        : cell_{&cell}, config_{&config}, setter_{&setter}, ground_{
-                                                                cell.box,
-                                                                parts,
-                                                                std::max(2.0, config.size_px / 6)} {
-        for (const auto& box : cell.kept_free) {
-            kept_free_.push_back({box.left - cell.box.left,
-                                  box.top - cell.box.top,
-                                  box.right - cell.box.left,
-                                  box.bottom - cell.box.top});
-        }
-    }
+    Placing(const LabelCell& cell, const LabelConfig& config, std::span<const NamedPart> parts)
+        : cell_{&cell}, config_{&config}, candidates_{cell, config, parts}, near_{8 *
+                                                                                  config.size_px} {}
 
-    void label(const Road& road);
+    /// Places a label at the best position that is free. \returns whether there is one
+    bool place(const LabelTask& task);
 
-    std::vector<Label> finished() && { return std::move(labels_); }
+    /// Places a label where others can make room. \returns whether they can
+    bool place_by_moving_others(const LabelTask& task);
+
+    std::vector<Label> finished() const;
 
 private:
-    struct Task {
-        const Road* road;
-        const SetLine* line;
-        const std::vector<BaseLine>* base_lines;
-        TextLook look;
-        double ideal_px; ///< best position of the label's middle, along the road
-        double reach_px; ///< maximum distance from there
+    using Number = std::size_t;
+    struct Placed {
+        LabelTask task;
+        LabelCandidate candidate;
     };
 
-    std::optional<Candidate> best_of(const Task& task) const;
-    std::optional<Candidate>
-    candidate(const Task& task, double middle_px, const BaseLine& base) const;
-    std::vector<BaseLine> base_lines(const Road& road, const TextLook& look) const;
-    bool has_room(const Candidate& candidate, const std::string& name) const;
-    double covered(const Candidate& candidate, const TextLook& look) const;
-    void take(const Task& task, Candidate candidate);
+    std::optional<LabelCandidate> best_of(const LabelTask& task) const;
+    bool is_near_its_name(const LabelCandidate& candidate, const std::string& name) const;
+    std::vector<Number> others_at(const LabelCandidate& candidate) const;
+    bool move_away(const std::vector<Number>& others);
+    void put(Number number, LabelTask task, LabelCandidate candidate);
+    void take_off(Number number);
+    Label label_of(const Placed& placed) const;
 
     const LabelCell* cell_;
     const LabelConfig* config_;
-    TypeSetter* setter_;
-    OccupancyGrid ground_;
-    std::vector<PixelBox> kept_free_; ///< relative to the cell's corner
-    std::vector<Label> labels_;
-    std::vector<Candidate> taken_; ///< one per label
+    LabelCandidates candidates_;
+    std::map<Number, Placed> placed_;
+    Number next_ = 0;
+    BoxGrid near_; ///< boxes of placed labels
+    std::map<std::string, std::vector<Number>> of_name_;
 };
 
-void Placing::label(const Road& road) {
-    const TextLook look{road.part.rank <= last_main_rank ? config_->size_px * main_size
-                                                         : config_->size_px};
-    const double length_px = road.path.length_px();
-    if (length_px < look.size_px) {
-        return;
-    }
-    const auto line = setter_->set(road.part.name, look);
-    if (!line.whole || line.glyphs.empty() || line.width_px > length_px) {
-        return;
-    }
-    const auto bases = base_lines(road, look);
-    const int count = std::max(1, int(length_px / config_->repeat_px));
-    for (int i = 0; i < count; ++i) {
-        const Task task{
-            &road, &line, &bases, look, (i + 0.5) * length_px / count, length_px / count / 2};
-        if (auto best = best_of(task)) {
-            take(task, *std::move(best));
+std::optional<LabelCandidate> Placing::best_of(const LabelTask& task) const {
+    std::optional<LabelCandidate> best;
+    double limit = std::numeric_limits<double>::infinity();
+    candidates_.visit(task, limit, [&](LabelCandidate&& found) {
+        if (found.cost < limit && !is_near_its_name(found, task.subject->name) &&
+            others_at(found).empty()) {
+            limit = found.cost;
+            best = std::move(found);
         }
-    }
-}
-
-std::vector<BaseLine> Placing::base_lines(const Road& road, const TextLook& look) const {
-    std::vector<BaseLine> lines;
-    for (const auto side : {LabelSide::above, LabelSide::below}) {
-        const double upwards_px = base_line_px(look, road.part.half_width_px, *config_, side);
-        for (const bool forward : {true, false}) {
-            lines.push_back({base_line(road.path, forward ? upwards_px : -upwards_px, look.size_px),
-                             side,
-                             forward});
-        }
-    }
-    return lines;
-}
-
-std::optional<Candidate> Placing::best_of(const Task& task) const {
-    const double step_px = config_->size_px * 0.75;
-    std::optional<Candidate> best;
-    for (int i = 0; i * step_px <= task.reach_px; ++i) {
-        if (best && cost_of_distance * i * step_px / task.reach_px >= best->cost) {
-            break;
-        }
-        for (const int side : {1, -1}) {
-            if (i == 0 && side < 0) {
-                continue;
-            }
-            const double middle_px = task.ideal_px + side * i * step_px;
-            const double half_px = task.line->width_px / 2;
-            const bool forward =
-                reads_forward(task.road->path, middle_px - half_px, middle_px + half_px);
-            for (const auto& base : *task.base_lines) {
-                auto found =
-                    base.forward == forward ? candidate(task, middle_px, base) : std::nullopt;
-                if (found && (!best || found->cost < best->cost)) {
-                    best = std::move(found);
-                }
-            }
-        }
-    }
+    });
     return best;
 }
 
-std::optional<Candidate>
-Placing::candidate(const Task& task, double middle_px, const BaseLine& base) const {
-    const double stretch = base.path.length_px() / task.road->path.length_px();
-    auto places = set_along(base.path, *task.line, middle_px * stretch, base.forward, *config_);
-    if (!places) {
-        return {};
-    }
-    Candidate found{.places = *std::move(places),
-                    .boxes = {},
-                    .box = {},
-                    .middle = task.road->path.at(middle_px),
-                    .cost = 0};
-    double bend = 0;
-    for (std::size_t i = 0; i < found.places.size(); ++i) {
-        const auto& place = found.places[i];
-        found.boxes.push_back(box_around(corners_of(place, task.look), config_->halo_px + 1));
-        found.box = i == 0 ? found.boxes[0] : both(found.box, found.boxes[i]);
-        const auto& first = found.places[0].along;
-        bend += 1 - (place.along.x * first.x + place.along.y * first.y);
-    }
-    if (!has_room(found, task.road->part.name)) {
-        return {};
-    }
-    const double cover = covered(found, task.look);
-    if (cover > config_->max_covered) {
-        return {};
-    }
-    found.cost = cost_of_cover * cover + cost_of_bend * bend / double(found.places.size()) +
-                 cost_of_distance * std::abs(middle_px - task.ideal_px) / task.reach_px +
-                 (base.side == LabelSide::below ? cost_below : 0);
-    return found;
-}
-
-bool Placing::has_room(const Candidate& candidate, const std::string& name) const {
-    const auto& box = candidate.box;
-    if (box.left < 0 || box.top < 0 || box.right > cell_->box.width() ||
-        box.bottom > cell_->box.height()) {
+bool Placing::is_near_its_name(const LabelCandidate& candidate, const std::string& name) const {
+    const auto found = of_name_.find(name);
+    if (found == of_name_.end()) {
         return false;
     }
+    const double min_px = same_name * config_->repeat_px;
+    return std::ranges::any_of(found->second, [&](Number number) {
+        const auto& other = placed_.at(number).candidate.middle;
+        const double x = other.x - candidate.middle.x;
+        const double y = other.y - candidate.middle.y;
+        return x * x + y * y < min_px * min_px;
+    });
+}
+
+std::vector<Placing::Number> Placing::others_at(const LabelCandidate& candidate) const {
+    std::vector<Number> others;
     const auto hits = [&](const PixelBox& other) {
-        return overlap(box, other) && std::ranges::any_of(candidate.boxes, [&](const auto& own) {
-                   return overlap(own, other);
-               });
+        return std::ranges::any_of(candidate.boxes,
+                                   [&](const auto& own) { return overlap(own, other); });
     };
-    if (std::ranges::any_of(kept_free_, hits)) {
-        return false;
-    }
-    for (std::size_t i = 0; i < taken_.size(); ++i) {
-        const double x = taken_[i].middle.x - candidate.middle.x;
-        const double y = taken_[i].middle.y - candidate.middle.y;
-        const double min_px = same_name * config_->repeat_px;
-        if ((labels_[i].name == name && x * x + y * y < min_px * min_px) ||
-            (overlap(box, taken_[i].box) && std::ranges::any_of(taken_[i].boxes, hits))) {
-            return false;
+    near_.any_near(candidate.box, [&](Number number) {
+        const auto& other = placed_.at(number).candidate;
+        if (overlap(candidate.box, other.box) && std::ranges::any_of(other.boxes, hits) &&
+            std::ranges::find(others, number) == others.end()) {
+            others.push_back(number);
         }
-    }
-    return true;
+        return others.size() > max_moved;
+    });
+    return others;
 }
 
-double Placing::covered(const Candidate& candidate, const TextLook& look) const {
-    int all = 0;
-    int road = 0;
-    for (const auto& place : candidate.places) {
-        const auto corners = corners_of(place, look);
-        for (const double x : {0.25, 0.75}) {
-            for (const double y : {0.05, 0.35, 0.65, 0.95}) {
-                const double top = 1 - y;
-                const PixelPoint left{corners[0].x * top + corners[1].x * y,
-                                      corners[0].y * top + corners[1].y * y};
-                const PixelPoint right{corners[2].x * top + corners[3].x * y,
-                                       corners[2].y * top + corners[3].y * y};
-                ++all;
-                road += ground_.has_road(
-                            {left.x * (1 - x) + right.x * x, left.y * (1 - x) + right.y * x})
-                            ? 1
-                            : 0;
+bool Placing::place(const LabelTask& task) {
+    auto best = best_of(task);
+    if (best) {
+        put(next_++, task, *std::move(best));
+    }
+    return best.has_value();
+}
+
+bool Placing::place_by_moving_others(const LabelTask& task) {
+    std::vector<LabelCandidate> all;
+    double limit = std::numeric_limits<double>::infinity();
+    candidates_.visit(task, limit, [&](LabelCandidate&& found) {
+        if (!is_near_its_name(found, task.subject->name) && others_at(found).size() <= max_moved) {
+            all.push_back(std::move(found));
+        }
+    });
+    std::ranges::stable_sort(all, {}, &LabelCandidate::cost);
+    all.resize(std::min(all.size(), max_attempts));
+    for (auto& candidate : all) {
+        const auto others = others_at(candidate);
+        if (std::ranges::any_of(others, [&](Number number) {
+                return placed_.at(number).task.subject->kind == LabelSubject::Kind::place;
+            })) {
+            continue;
+        }
+        std::vector<Placed> before;
+        for (const auto number : others) {
+            before.push_back(placed_.at(number));
+            take_off(number);
+        }
+        const auto own = next_++;
+        put(own, task, std::move(candidate));
+        std::vector<Number> moved;
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            auto best = best_of(before[i].task);
+            if (!best) {
+                break;
             }
+            put(others[i], before[i].task, *std::move(best));
+            moved.push_back(others[i]);
+        }
+        if (moved.size() == others.size()) {
+            return true;
+        }
+        take_off(own);
+        std::ranges::for_each(moved, [&](Number number) { take_off(number); });
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            put(others[i], before[i].task, std::move(before[i].candidate));
         }
     }
-    return double(road) / std::max(1, all);
+    return false;
 }
 
-void Placing::take(const Task& task, Candidate candidate) {
+void Placing::put(Number number, LabelTask task, LabelCandidate candidate) {
+    near_.add(candidate.box, number);
+    of_name_[task.subject->name].push_back(number);
+    placed_.emplace(number, Placed{task, std::move(candidate)});
+}
+
+void Placing::take_off(Number number) {
+    const auto found = placed_.find(number);
+    near_.remove(found->second.candidate.box, number);
+    std::erase(of_name_[found->second.task.subject->name], number);
+    placed_.erase(found);
+}
+
+Label Placing::label_of(const Placed& placed) const {
+    const auto& [task, candidate] = placed;
+    const auto& subject = *task.subject;
     const auto& corner = cell_->box;
-    Label label{.name = task.road->part.name,
-                .look = task.look,
-                .quiet = task.road->part.quiet,
-                .halo_px = config_->halo_px,
+    const bool is_shield = subject.kind == LabelSubject::Kind::road_number;
+    const auto box = is_shield
+                         ? shield_box(candidate.places[0], subject.line.width_px, subject.look)
+                         : candidate.box;
+    Label label{.name = subject.name,
+                .look = subject.look,
+                .quiet = subject.quiet,
+                .is_shield = is_shield,
+                .halo_px = is_shield ? 0 : config_->halo_px,
                 .left = int(std::lround(corner.left)),
                 .top = int(std::lround(corner.top)),
                 .glyphs = {},
-                .box = {candidate.box.left + corner.left,
-                        candidate.box.top + corner.top,
-                        candidate.box.right + corner.left,
-                        candidate.box.bottom + corner.top}};
+                .box = {box.left + corner.left,
+                        box.top + corner.top,
+                        box.right + corner.left,
+                        box.bottom + corner.top}};
     for (std::size_t i = 0; i < candidate.places.size(); ++i) {
         const auto& [from, along, width_px] = candidate.places[i];
-        const auto& cluster = task.line->clusters[i];
+        const auto& cluster = subject.line.clusters[i];
         for (std::size_t g = cluster.first; g < cluster.first + cluster.count; ++g) {
-            const auto& glyph = task.line->glyphs[g];
+            const auto& glyph = subject.line.glyphs[g];
             const double right = glyph.x_px - cluster.left_px;
             label.glyphs.push_back({glyph,
                                     {from.x + along.x * right + along.y * glyph.y_px,
@@ -297,12 +207,115 @@ void Placing::take(const Task& task, Candidate candidate) {
                                      along.x,
                                      along.y}});
         }
+        const auto corners = corners_of(candidate.places[i], subject.look);
+        LabelQuad letter{corners[0], corners[1], corners[3], corners[2]};
+        for (auto& point : letter) {
+            point = {point.x + corner.left, point.y + corner.top};
+        }
+        label.letters.push_back(letter);
     }
-    labels_.push_back(std::move(label));
-    taken_.push_back(std::move(candidate));
+    return label;
+}
+
+std::vector<Label> Placing::finished() const {
+    std::vector<Label> labels;
+    labels.reserve(placed_.size());
+    for (const auto& [number, placed] : placed_) {
+        labels.push_back(label_of(placed));
+    }
+    return labels;
+}
+
+std::vector<BaseLine> base_lines_of(const LabelPath& road,
+                                    const TextLook& look,
+                                    double half_width_px,
+                                    const LabelConfig& config) {
+    std::vector<BaseLine> lines;
+    for (const auto side : {LabelSide::above, LabelSide::below}) {
+        const double upwards_px = base_line_px(look, half_width_px, config, side);
+        for (const bool forward : {true, false}) {
+            lines.push_back(
+                {base_line(road, forward ? upwards_px : -upwards_px, look.size_px), side, forward});
+        }
+    }
+    return lines;
+}
+
+/// Text of a road, if it may fit.
+std::optional<LabelSubject>
+road_subject(const NamedPart& road, const LabelConfig& config, TypeSetter& setter) {
+    const bool is_number = is_road_number(road.name);
+    const double size = is_number ? shield_size : size_of_rank[std::size_t(road.rank)];
+    const TextLook look{std::max(config.min_size_px, config.size_px * size), is_number};
+    LabelPath path{road.line};
+    if (path.length_px() < look.size_px) {
+        return {};
+    }
+    auto line = setter.set(road.name, look);
+    if (!line.whole || line.glyphs.empty() || line.width_px > path.length_px()) {
+        return {};
+    }
+    auto base_lines =
+        is_number ? std::vector<BaseLine>{} : base_lines_of(path, look, road.half_width_px, config);
+    LabelSubject subject{.kind = is_number ? LabelSubject::Kind::road_number
+                                           : LabelSubject::Kind::road_name,
+                         .name = road.name,
+                         .look = look,
+                         .quiet = road.quiet,
+                         .line = std::move(line)};
+    subject.base_lines = std::move(base_lines);
+    subject.road = std::move(path);
+    return subject;
+}
+
+/// Adds the labels of roads, the important roads first; numbers before names.
+void add_road_tasks(const std::vector<NamedPart>& parts,
+                    const LabelConfig& config,
+                    TypeSetter& setter,
+                    std::deque<LabelSubject>& subjects,
+                    std::vector<LabelTask>& tasks) {
+    auto roads = named_chains(parts);
+    std::ranges::stable_sort(roads, {}, [](const NamedPart& road) {
+        return std::tuple{!is_road_number(road.name), road.quiet, road.rank, -length_px(road.line)};
+    });
+    for (const auto& road : roads) {
+        auto subject = road_subject(road, config, setter);
+        if (!subject) {
+            continue;
+        }
+        subjects.push_back(*std::move(subject));
+        const double length = subjects.back().road->length_px();
+        const int count = std::max(1, int(length / config.repeat_px));
+        for (int i = 0; i < count; ++i) {
+            tasks.push_back({&subjects.back(), (i + 0.5) * length / count, length / count / 2});
+        }
+    }
 }
 
 } // namespace
+
+bool is_road_number(std::string_view name) {
+    constexpr std::size_t max_letters = 3;
+    constexpr std::size_t max_figures = 4;
+    const auto count = [&](std::size_t from, auto is_wanted) {
+        const auto rest = name.substr(from);
+        return std::size_t(std::ranges::find_if_not(rest, is_wanted) - rest.begin());
+    };
+    const auto is_capital = [](char c) { return 'A' <= c && c <= 'Z'; };
+    std::size_t at = count(0, is_capital);
+    if (at > max_letters) {
+        return false;
+    }
+    if (at > 0 && at < name.size() && (name[at] == ' ' || name[at] == '-' || name[at] == '.')) {
+        ++at;
+    }
+    const auto figures = count(at, [](char c) { return '0' <= c && c <= '9'; });
+    at += figures;
+    if (at < name.size() && (is_capital(name[at]) || ('a' <= name[at] && name[at] <= 'd'))) {
+        ++at;
+    }
+    return 0 < figures && figures <= max_figures && at == name.size();
+}
 
 LabelCell label_cell_at(double x_px, double y_px) {
     const double left = std::floor(x_px / label_cell_px) * label_cell_px;
@@ -311,15 +324,39 @@ LabelCell label_cell_at(double x_px, double y_px) {
 }
 
 std::vector<Label> placed_labels(std::span<const RoadName> roads,
+                                 std::span<const PointName> places,
                                  const LabelCell& cell,
                                  const LabelConfig& config,
                                  TypeSetter& setter) {
     const auto parts = parts_in(roads, cell.box);
-    Placing placing{cell, config, parts, setter};
-    for (const auto& road : roads_by_weight(parts)) {
-        placing.label(road);
+    std::deque<LabelSubject> subjects; // whose addresses stay
+    std::vector<LabelTask> tasks;
+    for (auto place : places) {
+        place.at = {place.at.x - cell.box.left, place.at.y - cell.box.top};
+        LabelSubject subject{.kind = LabelSubject::Kind::place,
+                             .name = place.name,
+                             .look = place.look,
+                             .line = setter.set(place.name, place.look)};
+        if (subject.line.whole && !subject.line.glyphs.empty()) {
+            subject.place = std::move(place);
+            subjects.push_back(std::move(subject));
+            tasks.push_back({&subjects.back()});
+        }
     }
-    return std::move(placing).finished();
+    add_road_tasks(parts, config, setter, subjects, tasks);
+    Placing placing{cell, config, parts};
+    std::vector<LabelTask> homeless;
+    for (const auto& task : tasks) {
+        if (!placing.place(task)) {
+            homeless.push_back(task);
+        }
+    }
+    if (config.moves_others) {
+        for (const auto& task : homeless) {
+            placing.place_by_moving_others(task);
+        }
+    }
+    return placing.finished();
 }
 
 } // namespace macadam

@@ -14,8 +14,11 @@ constexpr double margin_px = 26;
 constexpr double scale_room_px = 300;
 constexpr double scale_height_px = 50;
 constexpr double line_height = 1.3; // of the em
-constexpr double ascent = 0.93;     // of DejaVu Sans, in units of the em
+constexpr double ascent = 0.93;     // of capitals with accents in Noto Sans, in units of the em
 constexpr double max_header = 0.3;  // of the sheet's height
+
+constexpr double units_per_inch = 96;
+constexpr double usual_side = 1000; // of a sheet whose unit is 1: 265 mm, between A4 and A3
 
 struct Block {
     std::vector<std::string> lines;
@@ -54,23 +57,32 @@ std::vector<PositionedText> placed(const Block& block, const PixelPoint& corner,
 
 } // namespace
 
-double unit_of(int width_px, int height_px) {
-    const double side_px = std::min(width_px, height_px);
-    const double readable = std::clamp(side_px / 512 * 0.72, 0.55, 0.72);
-    return std::max(side_px / 1000, readable);
+double paper_unit_of(const PictureSize& size) {
+    return size.px_per_inch > 0 ? size.px_per_inch / units_per_inch : unit_of(size);
+}
+
+double unit_of(const PictureSize& size) {
+    const double px = size.px_per_inch > 0 ? size.px_per_inch / units_per_inch : 1;
+    const double side = std::min(size.width_px, size.height_px) / px / usual_side;
+    if (size.px_per_inch > 0 && side > 1) {
+        return px * std::sqrt(side);
+    }
+    return px * std::max(side, std::clamp(side * usual_side / 512 * 0.72, 0.55, 0.72));
 }
 
 PixelBox inset(const PixelBox& box, double margin) {
     return {box.left + margin, box.top + margin, box.right - margin, box.bottom - margin};
 }
 
-Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter& setter) {
-    const double unit = unit_of(width_px, height_px);
+Layout layout_of(const MapScene& scene, const PictureSize& size, TypeSetter& setter) {
+    const auto [width_px, height_px, band_px, px_per_inch] = size;
+    const double unit = unit_of(size);
     const double margin = std::round(margin_px * unit);
     const double width = width_px - 2 * margin;
     const double max_px = height_px * max_header;
     Layout layout;
     layout.unit = unit;
+    layout.paper_unit = paper_unit_of(size);
     const auto add = [&layout](const std::vector<PositionedText>& texts) {
         layout.texts.insert(layout.texts.end(), texts.begin(), texts.end());
     };

@@ -18,7 +18,8 @@ struct PositionedText {
 
 /// Division of the sheet: title above, map, scale bar and attribution below.
 struct Layout {
-    double unit = 1; ///< size of one pixel of a 1000 px picture
+    double unit = 1;       ///< of title, legend and scale: their sizes are for 1000 px a side
+    double paper_unit = 1; ///< of roads and their names: 1/96 inch on paper, px
     PixelBox map;
     std::vector<PositionedText> texts;
     PixelBox scale_room; ///< area of north arrow and scale bar
@@ -26,11 +27,15 @@ struct Layout {
     bool edges = true; ///< hairlines around the map
 };
 
-/// Returns one thousandth of the shorter side, or more for small pictures, so that their text
-/// remains legible.
-double unit_of(int width_px, int height_px);
+/// Returns the pixels of 1/96 inch on paper; of a picture that a page scales, unit_of.
+double paper_unit_of(const PictureSize& size);
 
-Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter& setter);
+/// Returns the unit of the elements around the map. Of a sheet up to 265 mm it is one thousandth of
+/// the shorter side, or more for small pictures, so that their text remains legible; on larger
+/// sheets it grows with the square root of the side, since they are looked at from further away.
+double unit_of(const PictureSize& size);
+
+Layout layout_of(const MapScene& scene, const PictureSize& size, TypeSetter& setter);
 
 /// Shrinks `box` by `margin` on every side.
 PixelBox inset(const PixelBox& box, double margin);

@@ -1,22 +1,66 @@
 #include "render/map/map_labels.hpp"
 
+#include "render/roads/map_generalisation.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace macadam {
 namespace {
 
-// Sizes at 1000 px.
-constexpr double label_px = 13;
-constexpr double halo_px = 2;
-constexpr double repeat_px = 420;
+// In 1/96 inch on paper.
+constexpr double label_px = 10.2; // 2.7 mm, 7.7 pt
+constexpr double halo_px = 1.6;
+constexpr double repeat_px = 420; // 11 cm
 constexpr double edge_px = 6;
 constexpr double legend_air_px = 8;
 
 constexpr double min_label_px = 10; // minimum legible size
 constexpr double min_halo_px = 1.5;
 constexpr double base_map_halo = 1.6; // relative to that on plain ground
+
+/// Look of the names of a rank of places.
+struct PlaceLook {
+    double size; ///< 1/96 inch
+    bool bold;
+    double to_scale; ///< shown down to it
+};
+constexpr std::array place_looks{PlaceLook{20, true, 1e9},
+                                 PlaceLook{16, true, 2e6},
+                                 PlaceLook{12.5, true, 3e5},
+                                 PlaceLook{11, true, 7.5e4},
+                                 PlaceLook{10, false, 5e4}};
+
+/// Returns the names of places at a scale, the important ones first. Names of areas are centred on
+/// them; where the map is too small to show areas, a symbol marks the place.
+std::vector<PointName> point_names(const MapScene& scene,
+                                   const MapFrame& frame,
+                                   double paper_unit,
+                                   double scale_denominator) {
+    auto places = scene.places;
+    std::ranges::stable_sort(places, {}, &PlaceName::rank);
+    std::vector<PointName> names;
+    for (const auto& place : places) {
+        const auto& [size, bold, to_scale] =
+            place_looks[std::size_t(std::clamp(place.rank, 0, int(place_looks.size()) - 1))];
+        if (scale_denominator <= to_scale) {
+            names.push_back({.at = to_pixel(frame, place.position),
+                             .name = place.name,
+                             .look = {std::max(min_label_px, size * paper_unit), bold}});
+        }
+    }
+    return names;
+}
+
+LabelConfig label_config(double paper_unit) {
+    return {.size_px = std::max(min_label_px, label_px * paper_unit),
+            .min_size_px = min_label_px,
+            .halo_px = std::max(min_halo_px, halo_px * paper_unit),
+            .gap_px = paper_unit,
+            .repeat_px = repeat_px * paper_unit};
+}
 
 /// Returns the distance from the centre of a road to the edge of its painted line.
 double painted_half_width_px(const LineWidths& widths, const MapLine& line) {
@@ -28,13 +72,6 @@ double painted_half_width_px(const LineWidths& widths, const MapLine& line) {
 }
 
 } // namespace
-
-LabelConfig label_config(double unit) {
-    return {.size_px = std::max(min_label_px, label_px * unit),
-            .halo_px = std::max(min_halo_px, halo_px * unit),
-            .gap_px = unit,
-            .repeat_px = repeat_px * unit};
-}
 
 std::vector<RoadName> road_names(std::span<const MapLine> lines,
                                  const MapFrame& frame,
@@ -62,26 +99,31 @@ std::vector<Label> map_labels(const MapScene& scene,
                               const Layout& layout,
                               const Placement& placement,
                               const LineWidths& widths,
+                              double scale_denominator,
                               TypeSetter& setter) {
     if (!style.labels) {
         return {};
     }
-    LabelCell cell{.box = inset(layout.map, std::round(edge_px * layout.unit)), .kept_free = {}};
+    LabelCell cell{.box = inset(layout.map, std::round(edge_px * layout.paper_unit)),
+                   .kept_free = {}};
     if (!placement.card.legend.entries.empty()) {
         const auto& corner = placement.corner;
         cell.kept_free.push_back(inset({corner.x,
                                         corner.y,
                                         corner.x + placement.card.width_px,
                                         corner.y + placement.card.height_px},
-                                       -legend_air_px * layout.unit));
+                                       -legend_air_px * layout.paper_unit));
     }
-    auto config = label_config(layout.unit);
+    auto config = label_config(layout.paper_unit);
     if (scene.base) {
         config.halo_px *= base_map_halo;
     }
-    const auto names =
-        road_names(scene.lines, placement.frame, widths, [](const MapLine&) { return true; });
-    return placed_labels(names, cell, config, setter);
+    config.moves_others = true;
+    const auto names = road_names(scene.lines, placement.frame, widths, [&](const MapLine& line) {
+        return is_named(line.rank, scale_denominator);
+    });
+    const auto places = point_names(scene, placement.frame, layout.paper_unit, scale_denominator);
+    return placed_labels(names, places, cell, config, setter);
 }
 
 } // namespace macadam

@@ -10,17 +10,15 @@
 
 namespace macadam {
 
-/// Places the names of a scene's roads on its picture, off the legend and the map's edges. Empty if
-/// the style has none.
+/// Places the names of a scene's places and roads on its picture, as many as its scale allows, off
+/// the legend and the map's edges. Empty if the style has none.
 std::vector<Label> map_labels(const MapScene& scene,
                               const MapStyle& style,
                               const Layout& layout,
                               const Placement& placement,
                               const LineWidths& widths,
+                              double scale_denominator,
                               TypeSetter& setter);
-
-/// Returns letter sizes and distances of labels in a picture. \param unit  as in layout_of
-LabelConfig label_config(double unit);
 
 /// Returns the roads of lines on a picture, with the names that `is_named` admits.
 std::vector<RoadName> road_names(std::span<const MapLine> lines,

@@ -12,6 +12,7 @@
 #include "render/map/pdf_labels.hpp"
 #include "render/map/pdf_roads.hpp"
 #include "render/roads/line_joining.hpp"
+#include "render/roads/map_generalisation.hpp"
 #include "render/roads/road_painter.hpp"
 #include "render/roads/road_polylines.hpp"
 
@@ -36,13 +37,18 @@ const PictureSize& checked(const PictureSize& size) {
     return size;
 }
 
-/// Returns the scene with its lines densified for the projection.
-MapScene bent_scene(const MapScene& scene, const MapFrame& frame) {
-    auto shown = scene;
-    for (auto& line : shown.lines) {
-        line.line = bent(frame, line.line);
-    }
-    return shown;
+constexpr double mm_per_unit = 25.4 / 96; // of Layout::paper_unit
+
+double middle_px(const Layout& layout) {
+    return (layout.map.top + layout.map.bottom) / 2;
+}
+
+double metres_per_mm(const MapFrame& frame, const Layout& layout) {
+    return metres_per_px(frame, middle_px(layout)) * layout.paper_unit / mm_per_unit;
+}
+
+double scale_denominator_of(const MapFrame& frame, const Layout& layout) {
+    return metres_per_mm(frame, layout) * 1000;
 }
 
 struct Roads {
@@ -50,35 +56,44 @@ struct Roads {
     LineWidths widths;
 };
 
-Roads roads_of(const MapScene& scene,
-               const MapStyle& style,
-               const MapFrame& frame,
-               const Layout& layout) {
-    const double middle_px = (layout.map.top + layout.map.bottom) / 2;
-    auto wanted = line_widths(metres_per_px(frame, middle_px), layout.unit);
+/// Returns the widths, and whether both directions fit side by side.
+LineWidths widths_of(const std::vector<MapLine>& lines,
+                     const MapStyle& style,
+                     const MapFrame& frame,
+                     const Layout& layout) {
+    const double unit = layout.paper_unit;
+    auto wanted = line_widths(metres_per_px(frame, middle_px(layout)), unit);
     wanted.core_px *= style.lines.width;
     wanted.casing_px *= style.lines.casing;
-    auto merged = joined_polylines(scene.lines, worse_of_both_ways(scene.lines), frame);
-    const double ink = ink_per_px(merged, layout.map, layout.unit);
-    if (!wanted.separate_ways) {
-        return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
-    }
-    const auto separate = uncrowded(wanted, 2 * ink, layout.unit);
+    const double ink =
+        ink_per_px(joined_polylines(lines, worse_of_both_ways(lines), frame), layout.map, unit);
+    const auto separate = uncrowded(wanted, 2 * ink, unit);
     if (separate.separate_ways) {
-        return {
-            side_by_side(scene.lines, frame, separate, style.left_hand_traffic, joined_polylines),
-            separate};
+        return separate;
     }
-    return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
+    wanted.separate_ways = false;
+    return uncrowded(wanted, ink, unit);
 }
 
 Roads shown_roads(const MapScene& scene,
                   const MapStyle& style,
                   const MapFrame& frame,
                   const Layout& layout) {
-    check_classes(scene.lines, classes_of(style));
-    return scene.projection ? roads_of(bent_scene(scene, frame), style, frame, layout)
-                            : roads_of(scene, style, frame, layout); // without a copy of all lines
+    const auto& table = classes_of(style);
+    check_classes(scene.lines, table);
+    auto lines = scene.lines;
+    if (scene.projection) {
+        for (auto& line : lines) {
+            line.line = bent(frame, line.line);
+        }
+    }
+    const auto widths = widths_of(lines, style, frame, layout);
+    const auto uses = widths.separate_ways ? all_lines(lines) : worse_of_both_ways(lines);
+    join_short_classes(lines, uses, table, min_run_mm * metres_per_mm(frame, layout));
+    return {widths.separate_ways
+                ? side_by_side(lines, frame, widths, style.left_hand_traffic, joined_polylines)
+                : joined_polylines(lines, uses, frame),
+            widths};
 }
 
 LabelInks label_inks(const Palette& colours) {
@@ -87,7 +102,7 @@ LabelInks label_inks(const Palette& colours) {
 
 double denominator_of(const MapFrame& frame, const Layout& layout) {
     const double middle_px = (layout.map.top + layout.map.bottom) / 2;
-    return scale_denominator(metres_per_px(frame, middle_px) * layout.unit);
+    return scale_denominator(metres_per_px(frame, middle_px) * layout.paper_unit);
 }
 
 std::vector<BackgroundShape> shown_background(std::span<const BackgroundTile> tiles,
@@ -97,7 +112,7 @@ std::vector<BackgroundShape> shown_background(std::span<const BackgroundTile> ti
     return background_shapes(tiles,
                              frame,
                              layout.map,
-                             {layout.unit, denominator_of(frame, layout)},
+                             {layout.paper_unit, denominator_of(frame, layout)},
                              (box.west_deg + box.east_deg) / 2);
 }
 
@@ -132,13 +147,16 @@ int rows_of_band(const PictureSize& size) {
 
 MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
     : scene_{std::move(scene)}, style_{std::move(style)}, size_{checked(size)},
-      layout_{layout_of(scene_, size.width_px, size.height_px, setter_)},
-      placement_{
-          placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_)} {}
+      layout_{layout_of(scene_, size_, setter_)} {
+    set_roads(std::move(scene_.lines), std::move(scene_.events));
+}
 
 void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events) {
     scene_.lines = std::move(lines);
     scene_.events = std::move(events);
+    const double scale = scale_denominator_of(
+        fitted_frame(scene_.box, layout_.map, scene_.projection.get()), layout_);
+    std::erase_if(scene_.lines, [&](const MapLine& line) { return !is_shown(line, scale); });
     placement_ =
         placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_);
 }
@@ -167,6 +185,10 @@ GeoBox MapPlan::ground() const {
                     edge_share);
 }
 
+double MapPlan::scale() const {
+    return scale_denominator_of(placement_.frame, layout_);
+}
+
 PlanePosition MapPlan::place() const {
     return plane_position(placement_.frame);
 }
@@ -192,7 +214,8 @@ void MapPlan::draw(const TakeRows& take, const Progress& progress) {
                    .ground = std::move(ground)},
                   roads.strands,
                   roads.widths);
-    const auto labels = map_labels(scene_, style_, layout_, placement_, roads.widths, setter_);
+    const auto labels =
+        map_labels(scene_, style_, layout_, placement_, roads.widths, scale(), setter_);
     const int band_px = rows_of_band(size_);
     for (int top_px = 0; top_px < size_.height_px; top_px += band_px) {
         if (progress.stop.stop_requested()) {
@@ -205,7 +228,8 @@ void MapPlan::draw(const TakeRows& take, const Progress& progress) {
                 draw_labels(canvas, {&label, 1}, {}, label_inks(colours), setter_);
             }
         }
-        draw_events(canvas, scene_.events, placement_.frame, layout_.map, layout_.unit, colours);
+        draw_events(
+            canvas, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, colours);
         draw_map_surround(canvas, layout_, placement_, style_, setter_);
         take(std::move(canvas).finished().rgb);
         progress(std::size_t(top_px + count), std::size_t(size_.height_px));
@@ -216,7 +240,8 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
     const auto theme = palette(style_);
     const auto colours = class_colours(style_, classes_of(style_).classes.size());
     const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
-    const auto labels = map_labels(scene_, style_, layout_, placement_, roads.widths, setter_);
+    const auto labels =
+        map_labels(scene_, style_, layout_, placement_, roads.widths, scale(), setter_);
     const auto base = ground_of(scene_, style_, placement_.frame, size_);
     return pdf_file(sheet, [&](PdfPage& page) {
         page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
@@ -236,7 +261,7 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
         draw_roads(page, roads.strands, roads.widths, theme, colours);
         page.end_clip();
         draw_labels(page, labels, label_inks(theme), setter_);
-        draw_events(page, scene_.events, placement_.frame, layout_.map, layout_.unit, theme);
+        draw_events(page, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, theme);
         draw_map_surround(page, layout_, placement_, style_, setter_);
     });
 }

@@ -55,6 +55,9 @@ public:
     /// Returns the position of the picture on the plane of its projection.
     PlanePosition place() const;
 
+    /// Returns the denominator of the scale on paper at half the map's height: 25000 for 1:25,000.
+    double scale() const;
+
     /// Returns the ground width of the picture at half its height.
     double ground_width_m() const;
 

@@ -27,6 +27,9 @@ void draw_labels(PdfPage& page,
                  const LabelInks& inks,
                  const TypeSetter& setter) {
     for (const auto& label : labels) {
+        if (label.is_shield) {
+            draw_shield(page, label.box, inks);
+        }
         page.write_turned(turned_text(label, inks, setter));
     }
 }

@@ -6,10 +6,12 @@
 #include "mapping/style/base_map.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "mapping/style/map_style_values.hpp"
+#include "mapping/style/place_name.hpp"
 #include "render/projection/crs_projection.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +32,9 @@ struct MapLine {
     bool certain = true;     ///< false: few passes or a wide interval, drawn thinner
     bool few_passes = false; ///< fewer than required: grey in a casing, regardless of class
     std::string name;        ///< of the road, for its label
+
+    /// From which the class follows; NaN: none, the class alone counts.
+    double iri_mm_per_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Pothole or other event of the road, drawn as a symbol.
@@ -62,7 +67,8 @@ struct MapScene {
     /// 180 degrees, it continues over the antimeridian, as do the longitudes of the lines.
     GeoBox box;
     std::vector<MapLine> lines;
-    std::vector<MapEvent> events{}; ///< drawn over the roads, with entries in the legend
+    std::vector<MapEvent> events{};  ///< drawn over the roads, with entries in the legend
+    std::vector<PlaceName> places{}; ///< named on the map, as far as there is room
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
     std::string attribution;      ///< copyright notice
@@ -86,6 +92,10 @@ inline constexpr int max_image_px = 32768;
 struct PictureSize {
     int width_px, height_px;
     int band_px = 0; ///< rows drawn at a time; 0: as many as make 8 million pixels
+
+    /// On paper: lines and letters have the widths and heights that their map scale asks for. 0: a
+    /// picture for a page that scales it: the shorter side counts as 265 mm.
+    double px_per_inch = 0;
 };
 
 /// Receiver of rows of a picture as they are drawn, from the top, in groups of whole rows:

@@ -53,8 +53,7 @@ constexpr FontFile noto_cjk(std::string_view script, long face) {
 
 // For scripts with several fonts in the package, the one for plain running text is listed.
 constexpr std::array files{
-    FontFile{"", "truetype/dejavu/DejaVuSans", "", "-Bold", "fonts-dejavu-core"},
-    noto("", "truetype/noto/NotoSans"), // Latin, Greek and Cyrillic characters missing from DejaVu
+    noto("", "truetype/noto/NotoSans"), // Latin, Greek, Cyrillic; its figures are tabular
     noto_without_bold("Zyyy", "truetype/noto/NotoSansSymbols2"),
     noto("Zyyy", "truetype/noto/NotoSansSymbols"),
     noto_without_bold("Zyyy", "truetype/noto/NotoSansMath"),

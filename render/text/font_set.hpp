@@ -13,12 +13,12 @@ struct hb_font_t;
 namespace macadam {
 
 /// Set of fonts for text: a fixed list of files of known packages, so that a picture is the same on
-/// every machine that has them. DejaVu Sans comes first; characters that it lacks come from Noto's
+/// every machine that has them. Noto Sans comes first; characters that it lacks come from Noto's
 /// font for the script, then from Noto's symbols. Fonts are opened on first use.
 class FontSet {
 public:
     /// \param folder  /usr/share/fonts, with the layout of Debian's packages
-    /// \throws InputError  if DejaVu Sans is missing.
+    /// \throws InputError  if Noto Sans is missing.
     explicit FontSet(std::filesystem::path folder);
     ~FontSet();
     FontSet(const FontSet&) = delete;

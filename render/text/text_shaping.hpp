@@ -63,7 +63,7 @@ struct GlyphPose {
 /// for the order of runs.
 class TypeSetter {
 public:
-    /// \throws InputError  if DejaVu Sans is not installed. The other functions throw it for the
+    /// \throws InputError  if Noto Sans is not installed. The other functions throw it for the
     ///                     font of a script that a text needs.
     TypeSetter();
     explicit TypeSetter(const std::filesystem::path& fonts);

@@ -47,7 +47,7 @@ std::vector<Label> tile_labels(std::span<const MapLine> lines,
         for (auto column = first_of(window.left_px); column <= last_column; ++column) {
             const auto cell =
                 label_cell_at(double(column) * label_cell_px, double(row) * label_cell_px);
-            std::ranges::move(placed_labels(roads, cell, LabelConfig{}, setter),
+            std::ranges::move(placed_labels(roads, {}, cell, LabelConfig{}, setter),
                               std::back_inserter(labels));
         }
     }

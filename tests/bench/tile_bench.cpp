@@ -219,7 +219,7 @@ void measure_map(const fs::path& file) {
                      std::lerp(town.south_deg, town.north_deg, 0.65)};
     MapScene scene;
     Image image;
-    MapRequest request{.title = "Town", .width_px = 4096, .height_px = 4096};
+    MapRequest request{.title = "Town", .size = {.width_px = 4096, .height_px = 4096}};
     request.filter.box = box;
     request.style.classes = class_table("fhwa");
     const double query_ms = cost_ms([&] { scene = load_map(store, request).scene(); });

@@ -170,7 +170,7 @@ std::string line_charts_svg(std::span<const ChartPanel> panels) {
     const double height = panel_height * static_cast<double>(panels.size());
     auto svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
                            "width=\"{0}\" height=\"{1}\" font-size=\"{2}\" "
-                           "font-family=\"'DejaVu Sans', Verdana, Arial, sans-serif\" "
+                           "font-family=\"'Noto Sans', Verdana, Arial, sans-serif\" "
                            "fill=\"#{3:06x}\">\n<rect width=\"{0}\" height=\"{1}\" "
                            "fill=\"#ffffff\"/>\n",
                            width,

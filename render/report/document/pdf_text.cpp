@@ -9,7 +9,7 @@ using namespace document;
 namespace {
 
 // From fonts-noto-core; Pango substitutes other installed fonts for missing scripts.
-constexpr const char* family = "Noto Sans,DejaVu Sans,sans-serif";
+constexpr const char* family = "Noto Sans,sans-serif";
 constexpr float line_spacing = 1.12F; // relative to the font's own, which is 1.36 for Noto Sans
 
 struct FreeFont {

@@ -45,7 +45,7 @@ std::string changed_roads(const std::filesystem::path& folder) {
 }
 
 MapRequest request() {
-    MapRequest request{.title = "Change", .width_px = 800, .height_px = 600};
+    MapRequest request{.title = "Change", .size = {.width_px = 800, .height_px = 600}};
     request.style.ramp = "viridis"; // not diverging: replaced
     return request;
 }

@@ -35,7 +35,7 @@ TEST(Png, IsTheSameFileHoweverManyRowsComeAtATime) {
     const auto whole = encode_png(image);
     for (const std::size_t rows : {1, 7, 210}) {
         std::vector<std::uint8_t> bytes;
-        PngWriter writer{image.width, image.height, [&](std::string_view more) {
+        PngWriter writer{{image.width, image.height}, [&](std::string_view more) {
                              bytes.insert(bytes.end(), more.begin(), more.end());
                          }};
         const auto step = rows * 300 * 3;

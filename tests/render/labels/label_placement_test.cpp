@@ -39,7 +39,7 @@ std::vector<RoadName> in_pieces(const RoadName& whole) {
 
 std::vector<Label> labels_of(const std::vector<RoadName>& roads, const LabelConfig& config = {}) {
     TypeSetter setter;
-    return placed_labels(roads, cell, config, setter);
+    return placed_labels(roads, {}, cell, config, setter);
 }
 
 /// A town of crooked streets over the cell and what is around it.
@@ -204,7 +204,7 @@ TEST(LabelPlacement, RepeatsANameAlongALongRoad) {
     const RoadName long_road{
         .line = {{10, 250}, {4080, 260}}, .name = "Bundesstraße", .half_width_px = 3};
     const LabelConfig config{.repeat_px = 400};
-    const auto labels = placed_labels(std::vector{long_road}, wide, config, setter);
+    const auto labels = placed_labels(std::vector{long_road}, {}, wide, config, setter);
     ASSERT_EQ(labels.size(), 10U); // 4070 px / 400
     for (std::size_t i = 1; i < labels.size(); ++i) {
         EXPECT_NEAR(labels[i].box.left - labels[i - 1].box.left, 407, 2);
@@ -252,11 +252,11 @@ TEST(LabelPlacement, KeepsOffTheLegend) {
     TypeSetter setter;
     const PixelBox legend{cell_box.left + 100, cell_box.top + 150, cell_box.left + 400, 1536};
     const std::vector roads{road("Hauptstraße", {{0, 200}, {512, 200}})};
-    const auto labels = placed_labels(roads, {cell_box, {legend}}, {}, setter);
+    const auto labels = placed_labels(roads, {}, {cell_box, {legend}}, {}, setter);
     for (const auto& label : labels) {
         EXPECT_TRUE(label.box.right <= legend.left || legend.right <= label.box.left);
     }
-    EXPECT_EQ(placed_labels(roads, cell, {}, setter).size(), 1U);
+    EXPECT_EQ(placed_labels(roads, {}, cell, {}, setter).size(), 1U);
 }
 
 TEST(LabelPlacement, GivesMainRoadsTheirNamesFirst) {

@@ -153,7 +153,7 @@ TEST(Map, IsAllMapWhereThePageHasTheWords) {
 TEST(Map, PutsTheLegendWhereNoRoadIs) {
     TypeSetter setter;
     auto diagonal = scene({road({{-400, 400}, {400, -400}}, 2)}, 400); // north-west to south-east
-    const auto layout = layout_of(diagonal, 800, 800, setter);
+    const auto layout = layout_of(diagonal, {800, 800}, setter);
     const auto legend = legend_of(diagonal, {}, *class_table("fhwa"));
     const auto placement = placement_of(diagonal, legend, layout, setter);
     EXPECT_LT(placement.corner.x, 400);
@@ -165,7 +165,7 @@ TEST(Map, MakesRoomForTheLegendWhereRoadsAreEverywhere) {
     const auto city = grid(12, 800);
     for (const auto& [width_px, height_px] :
          {std::pair{512, 512}, {1200, 600}, {600, 1200}, {256, 256}}) {
-        const auto layout = layout_of(city, width_px, height_px, setter);
+        const auto layout = layout_of(city, {width_px, height_px}, setter);
         const auto legend = legend_of(city, {}, *class_table("fhwa"));
         const auto placement = placement_of(city, legend, layout, setter);
         const auto low = to_pixel(placement.frame, {city.box.south_deg, city.box.west_deg});
@@ -183,7 +183,7 @@ TEST(Map, ShortensTheLegendOfASmallPictureRatherThanItsRoads) {
     city.class_km = {1.2, 3.4, 5.6};
     const auto legend = legend_of(city, {}, *class_table("fhwa"));
     const auto lengths = [&](int side_px) {
-        const auto layout = layout_of(city, side_px, side_px, setter);
+        const auto layout = layout_of(city, {side_px, side_px}, setter);
         return placement_of(city, legend, layout, setter).card.length_px;
     };
     EXPECT_EQ(lengths(512), 0);
@@ -196,7 +196,7 @@ TEST(Map, LeavesTheRoadsOfASmallPictureTheirPlace) {
     city.class_km = {1.2, 3.4, 5.6};
     const auto legend = legend_of(city, {}, *class_table("fhwa"));
     for (const int side_px : {320, 400, 512, 640}) {
-        const auto layout = layout_of(city, side_px, side_px, setter);
+        const auto layout = layout_of(city, {side_px, side_px}, setter);
         const auto without = placement_of(city, {}, layout, setter).frame;
         const auto with = placement_of(city, legend, layout, setter).frame;
         EXPECT_GT(with.px_per_rad, 0.6 * without.px_per_rad) << side_px; // more road than legend
@@ -218,7 +218,7 @@ TEST(Map, KeepsLongTitlesOnTheSheet) {
         wordy.title += "Straßenzustand ";
         wordy.attribution += "© contributors ";
     }
-    const auto layout = layout_of(wordy, 512, 512, setter);
+    const auto layout = layout_of(wordy, {512, 512}, setter);
     EXPECT_GT(layout.map.height(), 128);
     for (const auto& text : layout.texts) {
         EXPECT_GE(text.at.x, 0) << text.text;

@@ -267,8 +267,8 @@ TEST(PdfPage, PutsAHaloAroundTurnedLetters) {
 TEST(PdfMap, CarriesItsFonts) {
     const auto folder = fresh_folder();
     const auto fonts = output_of(folder, "pdffonts " + pdf_in(folder, crossing(), {}).string());
-    EXPECT_THAT(fonts, HasSubstr("DejaVuSans"));
-    EXPECT_THAT(fonts, HasSubstr("DejaVuSans-Bold"));
+    EXPECT_THAT(fonts, HasSubstr("NotoSans-Regular"));
+    EXPECT_THAT(fonts, HasSubstr("NotoSans-Bold"));
     EXPECT_THAT(fonts, HasSubstr("yes yes yes")); // embedded, a part, with letters
     EXPECT_THAT(fonts, Not(HasSubstr(" no ")));
 }
