@@ -81,6 +81,10 @@ void set_words(LegendWords& words, const std::string& day) {
     set(words.title, usual.title, fmt::format("Change of roughness since {}", day));
     set(words.few_passes, usual.few_passes, "Not comparable");
     set(words.unmeasured, usual.unmeasured, "No dated measurement");
+    set(words.note,
+        usual.note,
+        "Rougher or smoother where chance is unlikely to explain the difference; not significant "
+        "does not mean unchanged.");
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "app/output/units_option.hpp"
 #include "app/render/base_map_option.hpp"
 #include "app/render/change_map.hpp"
+#include "app/render/knowledge_map.hpp"
 #include "app/render/map_scene.hpp"
 #include "app/render/picture_output.hpp"
 #include "app/render/style_options.hpp"
@@ -37,6 +38,7 @@ struct RenderOptions {
     bool events;
     bool background;
     std::optional<std::int64_t> since_ms; ///< changes since then instead of roughness
+    std::optional<Knowledge> knowledge;   ///< instead of roughness
 };
 
 /// Parses --compare-since. The map of changes has classes and colours of its own.
@@ -50,18 +52,27 @@ std::optional<std::int64_t> parse_change(const Arguments& arguments) {
     return since_ms;
 }
 
+std::string usual_title(const Arguments& arguments) {
+    const auto kind = arguments.choice("--colour-by");
+    return arguments.value("--compare-since") ? "Change of road roughness"
+           : kind == "passes"                 ? "Coverage of roads"
+           : kind == "age"                    ? "Age of measurements"
+           : kind == "confidence"             ? "Confidence of road roughness"
+                                              : "Road roughness";
+}
+
 RenderOptions parse_render(const Arguments& arguments, const Console& console) {
     return {.store = store_file(arguments),
             .output = parse_picture_output(arguments),
             .filter = parse_filter(arguments),
             .selection = text_of_filter(arguments, "--bbox"),
-            .title = arguments.value("--title").value_or(
-                arguments.value("--compare-since") ? "Change of road roughness" : "Road roughness"),
+            .title = arguments.value("--title").value_or(usual_title(arguments)),
             .style = parse_style(arguments, console),
             .base = parse_base_map(arguments),
             .events = arguments.flag("--events"),
             .background = !arguments.flag("--no-background"),
-            .since_ms = parse_change(arguments)};
+            .since_ms = parse_change(arguments),
+            .knowledge = parse_colour_by(arguments)};
 }
 
 /// Checks that no input is overwritten and that the base map is not the road database.
@@ -112,8 +123,9 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .events =
                                  options.events && can_show_events(store, options.filter, console),
                              .background = options.background};
-    auto plan = options.since_ms ? load_change_map(store, request, *options.since_ms)
-                                 : load_map(store, request);
+    auto plan = options.since_ms    ? load_change_map(store, request, *options.since_ms)
+                : options.knowledge ? load_knowledge_map(store, request, *options.knowledge)
+                                    : load_map(store, request);
     const auto progress = console.progress("drawing");
     const auto last_seen_ms = store.seen().last_ms;
     const auto words =
@@ -138,7 +150,8 @@ constexpr std::array output_options{
     picture_format_option,
     Option{"--compare-since",
            "DATE",
-           "Show what became rougher or smoother since this day: 2026-03-01 or 2026-03."}};
+           "Show what became rougher or smoother since this day: 2026-03-01 or 2026-03."},
+    colour_by_option};
 constexpr std::array map_options{
     picture_size_option,
     dpi_option,
@@ -196,6 +209,8 @@ const Command render_command{.name = "render",
                                         "--class poor\n"
                                         "  macadam render roads.gpkg -o change.png "
                                         "--compare-since 2026-04\n"
+                                        "  macadam render roads.gpkg -o coverage.png --colour-by "
+                                        "passes\n"
                                         "  macadam render roads.gpkg -o map.tif --bare --crs "
                                         "EPSG:3006\n"
                                         "  macadam render roads.gpkg -o map.pdf --paper A3 "

@@ -21,7 +21,7 @@
 namespace macadam {
 namespace {
 
-constexpr double margin_share = 0.05; // of the driven extent, to keep roads off the frame
+constexpr double margin_share = 0.02; // of the driven extent, to keep roads off the frame
 constexpr double min_margin_m = 50;
 constexpr double certain_sd = 0.5; // relative; above it the line has a narrower core
 
@@ -29,15 +29,6 @@ GeoBox box_with_margin(const GeoBox& box) {
     const double diagonal_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
     return grown(box, std::max(min_margin_m, margin_share * diagonal_m));
-}
-
-std::string period_of(const ObservedPeriod& seen) {
-    if (!seen.first_ms || !seen.last_ms) {
-        return "dates not known";
-    }
-    const auto first = utc_day(*seen.first_ms);
-    const auto last = utc_day(*seen.last_ms);
-    return first == last ? first : first + " to " + last;
 }
 
 std::string subtitle_of_empty_map(const StoreReader& store) {
@@ -52,7 +43,7 @@ std::string length_text(double km, const MapStyle& style) {
 
 std::string subtitle_of(const StoreInfo& info, const MapStyle& style) {
     return fmt::format("{}  ·  {}  ·  {}  ·  {}",
-                       period_of({info.first_seen_ms, info.last_seen_ms}),
+                       period_text({info.first_seen_ms, info.last_seen_ms}),
                        length_text(info.km, style),
                        counted(info.trips, "trip"),
                        counted(info.vehicles.size(), "car"));
@@ -129,7 +120,7 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
         scene.box = *request.filter.box;
         const auto empty = empty_map_text(store);
         scene.subtitle = empty.empty()
-                             ? with_selection(request.subtitle.value_or(period_of(store.seen())))
+                             ? with_selection(request.subtitle.value_or(period_text(store.seen())))
                              : subtitle_of_empty_map(store);
         return scene;
     }
@@ -144,8 +135,8 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
         }
         scene.box = box_with_margin(roads.box);
         scene.class_km = request.subtitle ? request.class_km : std::move(roads.class_km);
-        scene.subtitle = with_selection(request.subtitle.value_or(
-            fmt::format("{}  ·  {}", period_of(roads.seen), length_text(roads.km, request.style))));
+        scene.subtitle = with_selection(request.subtitle.value_or(fmt::format(
+            "{}  ·  {}", period_text(roads.seen), length_text(roads.km, request.style))));
         return scene;
     }
     const auto info = store.info();
@@ -217,6 +208,15 @@ void pair_directions(std::vector<MapLine>& lines, std::vector<DrawnSegment> draw
 }
 
 } // namespace
+
+std::string period_text(const ObservedPeriod& seen) {
+    if (!seen.first_ms || !seen.last_ms) {
+        return "dates not known";
+    }
+    const auto first = utc_day(*seen.first_ms);
+    const auto last = utc_day(*seen.last_ms);
+    return first == last ? first : first + " to " + last;
+}
 
 int rank_of(std::string_view highway) {
     struct Rank {

@@ -40,6 +40,9 @@ std::vector<MapLine> map_lines(const StoreReader& store,
                                const GeoBox& box,
                                const std::function<void(const SegmentRecord&, MapLine&)>& paint);
 
+/// Returns a period for people: its first and last day.
+std::string period_text(const ObservedPeriod& seen);
+
 /// Request for a picture.
 struct MapRequest {
     SegmentFilter filter{};  ///< box: what to show, `std::nullopt`: the extent of the selection

@@ -39,6 +39,7 @@ struct LegendWords {
     std::string from = "from {}";
     std::string above = "above {}";
     std::string all = "all";
+    std::string note; ///< below the entries: how to read the map
 };
 
 /// Map style as stated by a style file. Unset values use the program's defaults.

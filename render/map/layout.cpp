@@ -83,6 +83,7 @@ Layout layout_of(const MapScene& scene, const PictureSize& size, TypeSetter& set
     Layout layout;
     layout.unit = unit;
     layout.paper_unit = paper_unit_of(size);
+    layout.width_px = width_px;
     const auto add = [&layout](const std::vector<PositionedText>& texts) {
         layout.texts.insert(layout.texts.end(), texts.begin(), texts.end());
     };

@@ -18,6 +18,9 @@ constexpr double row_px = 25;
 constexpr double padding_px = 16;
 constexpr double swatch_px = 34;
 constexpr double gap_px = 12;
+constexpr double note_px = 12.5;
+constexpr double note_row_px = 17;
+constexpr double min_note_width_px = 270;
 constexpr double core_px = 7;
 constexpr double casing_px = 1.7;
 
@@ -134,7 +137,7 @@ Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable&
         return {};
     }
     const auto colours = class_colours(style, classes.classes.size());
-    Legend legend{.title = title_of(style), .entries = {}};
+    Legend legend{.title = title_of(style), .entries = {}, .note = style.words.note};
     for (std::size_t i = 0; i < classes.classes.size(); ++i) {
         legend.entries.push_back({.rgb = colours[i],
                                   .name = capitalised(classes.classes[i].name),
@@ -174,6 +177,7 @@ Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable&
 
 std::vector<Legend> forms_of(const Legend& legend) {
     auto without_lengths = legend;
+    without_lengths.note.clear();
     for (auto& entry : without_lengths.entries) {
         entry.length.clear();
     }
@@ -206,7 +210,14 @@ LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSette
     const double title = setter.width_px(legend.title, {title_px * unit, true});
     card.width_px = std::ceil(2 * padding_px * unit +
                               std::max(title, columns * entry_px + (columns - 1) * 2 * gap));
-    card.height_px = std::ceil((2 * padding_px + title_px + 8 + rows * row_px - 6) * unit);
+    if (!legend.note.empty()) {
+        const TextLook small{note_px * unit};
+        // A narrow legend grows wider rather than much higher.
+        card.width_px = std::max(card.width_px, std::ceil(min_note_width_px * unit));
+        card.note = setter.wrapped(legend.note, small, card.width_px - 2 * padding_px * unit);
+    }
+    const double note = card.note.empty() ? 0 : double(card.note.size()) * note_row_px + 10;
+    card.height_px = std::ceil((2 * padding_px + title_px + 8 + rows * row_px - 6 + note) * unit);
     return card;
 }
 
@@ -219,10 +230,12 @@ void draw_legend(DrawTarget& canvas,
     const double padding = padding_px * unit;
     const double line = std::max(1.0, std::round(unit));
     const PixelBox box{corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px};
-    canvas.fill({box, 6 * unit}, colours.border);
-    canvas.fill(
-        {{box.left + line, box.top + line, box.right - line, box.bottom - line}, 6 * unit - line},
-        colours.page);
+    if (card.framed) {
+        canvas.fill({box, 6 * unit}, colours.border);
+        canvas.fill({{box.left + line, box.top + line, box.right - line, box.bottom - line},
+                     6 * unit - line},
+                    colours.page);
+    }
 
     const auto write = [&](const std::string& text, const PixelPoint& at, bool bold, auto rgb) {
         canvas.write(setter.mask(text, {(bold ? title_px : text_px) * unit, bold}), at, rgb);
@@ -250,6 +263,13 @@ void draw_legend(DrawTarget& canvas,
         write(entry.range, {range_x, base}, false, colours.quiet_ink);
         const double length_px = setter.width_px(entry.length, {text_px * unit});
         write(entry.length, {length_end - length_px, base}, false, colours.quiet_ink);
+    }
+    double base = box.bottom - padding - (double(card.note.size()) - 0.8) * note_row_px * unit;
+    for (const auto& text : card.note) {
+        canvas.write(setter.mask(text, {note_px * unit}),
+                     {box.left + padding, std::round(base)},
+                     colours.quiet_ink);
+        base += note_row_px * unit;
     }
 }
 

@@ -22,14 +22,15 @@ struct LegendEntry {
 struct Legend {
     std::string title;
     std::vector<LegendEntry> entries;
+    std::string note{}; ///< how to read the map
 };
 
 /// Returns the classes with their values, then the other kinds of lines in the scene. Empty if the
 /// style has no legend.
 Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes);
 
-/// Returns the legend in three forms, the fullest first: complete, without lengths, and with the
-/// values of classes instead of their names.
+/// Returns the legend in three forms, the fullest first: complete, without lengths and note,
+/// and with the values of classes instead of their names.
 std::vector<Legend> forms_of(const Legend& legend);
 
 /// Legend as a table on a card, with `columns` entries side by side.
@@ -39,6 +40,8 @@ struct LegendCard {
     double unit = 1;
     double name_px = 0, range_px = 0, length_px = 0; ///< column widths within an entry
     double width_px = 0, height_px = 0;
+    std::vector<std::string> note{}; ///< its lines
+    bool framed = true;              ///< a card on the map; false: on the page
 };
 
 LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter);

@@ -7,6 +7,7 @@
 #include "render/labels/label_painter.hpp"
 #include "render/map/base_map_blend.hpp"
 #include "render/map/event_symbols.hpp"
+#include "render/map/legend_band.hpp"
 #include "render/map/map_labels.hpp"
 #include "render/map/pdf_background.hpp"
 #include "render/map/pdf_labels.hpp"
@@ -147,7 +148,7 @@ int rows_of_band(const PictureSize& size) {
 
 MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
     : scene_{std::move(scene)}, style_{std::move(style)}, size_{checked(size)},
-      layout_{layout_of(scene_, size_, setter_)} {
+      layout_{layout_of(scene_, size_, setter_)}, whole_map_{layout_.map} {
     set_roads(std::move(scene_.lines), std::move(scene_.events));
 }
 
@@ -155,10 +156,18 @@ void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events
     scene_.lines = std::move(lines);
     scene_.events = std::move(events);
     const double scale = scale_denominator_of(
-        fitted_frame(scene_.box, layout_.map, scene_.projection.get()), layout_);
+        fitted_frame(scene_.box, whole_map_, scene_.projection.get()), layout_);
     std::erase_if(scene_.lines, [&](const MapLine& line) { return !is_shown(line, scale); });
-    placement_ =
-        placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_);
+    const auto legend = legend_of(scene_, style_, classes_of(style_));
+    layout_.map = whole_map_;
+    if (const auto band = legend_band(scene_, legend, layout_, setter_)) {
+        layout_.map = band->map;
+        placement_ = placement_of(scene_, {}, layout_, setter_);
+        placement_.card = band->card;
+        placement_.corner = band->corner;
+    } else {
+        placement_ = placement_of(scene_, legend, layout_, setter_);
+    }
 }
 
 const BackgroundLevel& MapPlan::background_level() const {

@@ -38,8 +38,9 @@ public:
     /// projection whose visible extent is unknown it is the box, grown by far.
     GeoBox ground() const;
 
-    /// Sets the roads and the events on them. If the legend finds no corner without roads, the map
-    /// makes room for it and needs the roads of a larger ground.
+    /// Sets the roads and the events on them; roads too minor for the map's scale are left out. The
+    /// legend takes a band of the sheet that would be empty, or a corner without roads; if there is
+    /// neither, the map makes room for it and needs the roads of a larger ground.
     void set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events = {});
 
     /// Returns the level of the background that serves the map's scale.
@@ -81,6 +82,7 @@ private:
     PictureSize size_;
     TypeSetter setter_;
     Layout layout_;
+    PixelBox whole_map_; ///< without a band for the legend
     MapBackground background_;
     Placement placement_;
 };

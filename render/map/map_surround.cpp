@@ -1,6 +1,7 @@
 #include "render/map/map_surround.hpp"
 
 #include "mapping/geometry/line_clipping.hpp"
+#include "render/map/legend_band.hpp"
 #include "render/scene/scale_bar.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace macadam {
 namespace {
 
 // Sizes at 1000 px.
-constexpr double margin_px = 30;      // between the data and the map's edge
-constexpr double card_margin_px = 18; // between the legend and the map's edge
 constexpr double label_px = 14;
 
 constexpr double min_scale = 0.9; // of a small map, relative to its scale without a legend
@@ -56,27 +55,14 @@ std::array<std::size_t, 4> hidden_by(const MapScene& scene,
     return hidden;
 }
 
-/// Returns the card with as many entries side by side as fit.
-LegendCard widest_card(const Legend& legend, const Layout& layout, TypeSetter& setter) {
-    const double room_px = layout.map.width() - 2 * card_margin_px * layout.unit;
-    auto best = legend_card(legend, 1, layout.unit, setter);
-    for (int columns = 2; columns <= int(legend.entries.size()); ++columns) {
-        const auto card = legend_card(legend, columns, layout.unit, setter);
-        if (card.width_px <= room_px && card.height_px < best.height_px) {
-            best = card;
-        }
-    }
-    return best;
-}
-
 Placement beside_or_below(const MapScene& scene,
                           const Legend& legend,
                           const Layout& layout,
                           TypeSetter& setter) {
-    const double margin = margin_px * layout.unit;
+    const double margin = map_margin_px * layout.unit;
     const double card_margin = card_margin_px * layout.unit;
     const auto column = legend_card(legend, 1, layout.unit, setter);
-    const auto row = widest_card(legend, layout, setter);
+    const auto row = widest_card(legend, layout.map.width() - 2 * card_margin, layout.unit, setter);
     auto left_room = inset(layout.map, margin);
     left_room.right -= std::min(column.width_px + card_margin, left_room.width() * 0.6);
     auto upper_room = inset(layout.map, margin);
@@ -208,6 +194,14 @@ void draw_edges(DrawTarget& canvas, const Layout& layout, const Palette& colours
         canvas.fill({{map.left, map.top, map.right, map.top + line}}, colours.border);
     }
     canvas.fill({{map.left, map.bottom - line, map.right, map.bottom}}, colours.border);
+    if (map.right < layout.width_px) {
+        canvas.fill({{map.right - line, map.top, map.right, map.bottom}}, colours.border);
+        canvas.fill({{map.right, map.bottom - line, layout.width_px, map.bottom}}, colours.border);
+    }
+    if (map.bottom < layout.scale_room.top) {
+        const double bottom = layout.scale_room.top;
+        canvas.fill({{map.left, bottom - line, layout.width_px, bottom}}, colours.border);
+    }
 }
 
 } // namespace
@@ -216,7 +210,7 @@ Placement placement_of(const MapScene& scene,
                        const Legend& legend,
                        const Layout& layout,
                        TypeSetter& setter) {
-    const double margin = scene.to_the_edge ? 0 : margin_px * layout.unit;
+    const double margin = scene.to_the_edge ? 0 : map_margin_px * layout.unit;
     const auto frame = fitted_frame(scene.box, inset(layout.map, margin), scene.projection.get());
     if (legend.entries.empty()) {
         return {frame, {}, {}};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double everywhere = std::numeric_limits<double>::infinity();
 constexpr std::array unmeasured_to{everywhere, everywhere, 1e6, 4e5, 1.5e5, 5e4}; // by rank
-constexpr std::array named_to{3e5, 3e5, 7.5e4, 7.5e4, 3e4, 1.5e4};                // by rank
+constexpr std::array named_to{3e5, 3e5, 1e5, 7.5e4, 5e4, 1.5e4};                  // by rank
 
 double limit_of(const std::array<double, 6>& limits, int rank) {
     return limits[std::size_t(std::clamp(rank, 0, 5))];

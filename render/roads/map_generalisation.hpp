@@ -15,7 +15,7 @@ namespace macadam {
 bool is_shown(const MapLine& line, double scale_denominator);
 
 /// Tells whether a map names roads of a rank: motorways and main roads down to 1:300,000, secondary
-/// and tertiary ones to 1:75,000, residential to 1:30,000, service to 1:15,000.
+/// ones to 1:100,000, tertiary to 1:75,000, residential to 1:50,000, service to 1:15,000.
 bool is_named(int rank, double scale_denominator);
 
 /// Length on paper below which a change of class is not drawn.

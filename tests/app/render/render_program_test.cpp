@@ -114,6 +114,13 @@ TEST_F(RenderProgram, DrawsPicturesThatAreWiderThanOneWindow) {
     EXPECT_EQ(info(out("wide.png"))["size"], Json::parse("[32768, 600]"));
 }
 
+TEST_F(RenderProgram, TakesTheSizeOfAPictureOnPaper) {
+    expect_done({"-o", out("a5.png"), "--size", "a5", "--landscape", "--dpi", "150"});
+    EXPECT_EQ(info(out("a5.png"))["size"], Json::parse("[1240, 874]"));
+    expect_done({"-o", out("mm.png"), "--size", "100x50.8mm"});
+    EXPECT_EQ(info(out("mm.png"))["size"], Json::parse("[1181, 600]")); // at 300 dpi
+}
+
 TEST_F(RenderProgram, WritesAMapOnPaper) {
     expect_done({"-o", out("map.pdf"), "--paper", "a3", "--landscape", "--title", "Lyon"});
     EXPECT_THAT(output_of(folder_, "pdfinfo " + out("map.pdf")), HasSubstr("(A3)"));
@@ -156,15 +163,29 @@ TEST_F(RenderProgram, SaysWhatIsWrongAndLeavesNothing) {
         {{"-o", "OUT/a.jpg"},
          2,
          "-o is 'OUT/a.jpg', expected a name that ends in .png, .tif or .pdf"},
-        {{"-o", "OUT/a.pdf", "--size", "512x512"}, 2, "--size is for pictures, expected --paper"},
+        {{"-o", "OUT/a.pdf", "--size", "512x512"},
+         2,
+         "--size is '512x512', expected for a .pdf millimetres such as 420x594mm, or --paper"},
+        {{"-o", "OUT/a.pdf", "--dpi", "300"}, 2, "--dpi is for pictures"},
+        {{"-o", "OUT/a.pdf", "--size", "A4", "--paper", "A4"},
+         2,
+         "--paper and --size cannot be combined"},
+        {{"-o", "OUT/a.png", "--size", "large"}, 2, "--size is 'large', expected pixels such as"},
+        {{"-o", "OUT/a.png", "--size", "A0", "--dpi", "1200"},
+         2,
+         "--size is 'A0', which is 39732 x 56173 pixels at 1200 dpi, expected both from 256"},
+        {{"-o", "OUT/a.png", "--size", "A4", "--dpi", "5"}, 2, "--dpi is '5', expected 24 to 1200"},
+        {{"-o", "OUT/a.png", "--colour-by", "age", "--ramp", "viridis"},
+         2,
+         "--colour-by age and --ramp cannot be combined"},
         {{"-o", "OUT/a.png", "--size", "32769x512"},
          2,
          "--size is '32769x512', expected WxH with both from 256 to 32768 pixels"},
         {{"-o", "OUT/a.tif", "--size", "512x32769"},
          2,
          "--size is '512x32769', expected WxH with both from 256 to 32768 pixels"},
-        {{"-o", "OUT/a.png", "--paper", "A4"}, 2, "--paper and --landscape are for a .pdf"},
-        {{"-o", "OUT/a.png", "--landscape"}, 2, "--paper and --landscape are for a .pdf"},
+        {{"-o", "OUT/a.png", "--paper", "A4"}, 2, "--paper is for a .pdf, expected --size A4"},
+        {{"-o", "OUT/a.png", "--landscape"}, 2, "--landscape turns paper, expected --size A4"},
         {{"-o", "OUT/a.pdf", "--paper", "A9"},
          2,
          "--paper is 'A9', expected A4 or A0 or A1 or A2 or A3 or A5 or letter or legal or "
