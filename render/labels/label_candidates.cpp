@@ -77,6 +77,8 @@ LabelCandidates::LabelCandidates(const LabelCell& cell,
     : cell_{0, 0, cell.box.width(), cell.box.height()}, config_{config},
       ground_{cell.box, parts, std::max(2.0, config.size_px / 6)}, cores_{junction_cores(parts)},
       cores_near_{8 * config.size_px} {
+    std::erase_if(cores_,
+                  [&](const JunctionCore& core) { return core.radius_px < config.min_core_px; });
     for (std::size_t i = 0; i < cores_.size(); ++i) {
         cores_near_.add(box_around({&cores_[i].middle, 1}, cores_[i].radius_px), i);
     }
@@ -245,7 +247,7 @@ bool LabelCandidates::is_on_core(const LabelCandidate& candidate, const TextLook
 
 double LabelCandidates::covered(const LabelCandidate& candidate, const TextLook& look) const {
     int all = 0;
-    int road = 0;
+    double road = 0;
     for (const auto& place : candidate.places) {
         const auto corners = corners_of(place, look);
         for (const double x : {0.25, 0.75}) {
@@ -256,14 +258,12 @@ double LabelCandidates::covered(const LabelCandidate& candidate, const TextLook&
                 const PixelPoint right{corners[2].x * top + corners[3].x * y,
                                        corners[2].y * top + corners[3].y * y};
                 ++all;
-                road += ground_.has_road(
-                            {left.x * (1 - x) + right.x * x, left.y * (1 - x) + right.y * x})
-                            ? 1
-                            : 0;
+                road += ground_.weight(
+                    {left.x * (1 - x) + right.x * x, left.y * (1 - x) + right.y * x});
             }
         }
     }
-    return double(road) / std::max(1, all);
+    return road / std::max(1, all);
 }
 
 } // namespace macadam

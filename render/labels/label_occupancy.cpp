@@ -4,6 +4,14 @@
 #include <cmath>
 
 namespace macadam {
+namespace {
+
+constexpr std::uint8_t minor = 1;
+constexpr std::uint8_t major = 2;
+constexpr int first_minor_rank = 3; // tertiary roads
+constexpr double minor_weight = 0.35;
+
+} // namespace
 
 OccupancyGrid::OccupancyGrid(const PixelBox& cell,
                              std::span<const NamedPart> parts,
@@ -18,13 +26,15 @@ OccupancyGrid::OccupancyGrid(const PixelBox& cell,
 
 void OccupancyGrid::mark(const NamedPart& part) {
     const double reach = part.half_width_px / square_px_;
+    const auto mark = part.quiet && part.rank >= first_minor_rank ? minor : major;
     const auto mark_around = [&](double x, double y) {
         const int left = std::max(0, int(std::floor(x - reach)));
         const int right = std::min(columns_ - 1, int(std::floor(x + reach)));
         const int bottom = std::min(rows_ - 1, int(std::floor(y + reach)));
         for (int row = std::max(0, int(std::floor(y - reach))); row <= bottom; ++row) {
             for (int column = left; column <= right; ++column) {
-                road_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)] = 1;
+                auto& road = road_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+                road = std::max(road, mark);
             }
         }
     };
@@ -41,11 +51,14 @@ void OccupancyGrid::mark(const NamedPart& part) {
     }
 }
 
-bool OccupancyGrid::has_road(const PixelPoint& at) const {
+double OccupancyGrid::weight(const PixelPoint& at) const {
     const int column = int(std::floor(at.x / square_px_));
     const int row = int(std::floor(at.y / square_px_));
-    return 0 <= column && column < columns_ && 0 <= row && row < rows_ &&
-           road_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)] != 0;
+    if (column < 0 || column >= columns_ || row < 0 || row >= rows_) {
+        return 0;
+    }
+    const auto road = road_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+    return road == major ? 1 : road == minor ? minor_weight : 0;
 }
 
 } // namespace macadam

@@ -12,8 +12,11 @@ class OccupancyGrid {
 public:
     OccupancyGrid(const PixelBox& cell, std::span<const NamedPart> parts, double square_px);
 
+    /// Returns how much it disturbs to cover a point: 0 nothing there, 1 a road, in between a minor
+    /// road without a measurement, whose line a halo may interrupt.
+    ///
     /// \param at  in pixels from the cell's corner
-    bool has_road(const PixelPoint& at) const;
+    double weight(const PixelPoint& at) const;
 
 private:
     void mark(const NamedPart& part);

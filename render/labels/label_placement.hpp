@@ -46,6 +46,7 @@ struct LabelConfig {
     double max_bend_deg = 18;  ///< from one letter to the next
     double max_turn_deg = 30;  ///< of a letter from the label's direction
     double max_covered = 0.15; ///< share of a label's area that may be road
+    double min_core_px = 0;    ///< smallest radius of a junction's core that is kept free
     bool moves_others = false; ///< a label without room may move others aside
 };
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double label_px = 10.2; // 2.7 mm, 7.7 pt
 constexpr double halo_px = 1.6;
 constexpr double repeat_px = 420; // 11 cm
+constexpr double min_core = 0.9;  // 0.24 mm: a smaller junction is not seen as an area
 constexpr double edge_px = 6;
 constexpr double legend_air_px = 8;
 
@@ -30,8 +31,7 @@ struct PlaceLook {
 constexpr std::array place_looks{PlaceLook{20, true, 1e9},
                                  PlaceLook{16, true, 2e6},
                                  PlaceLook{12.5, true, 3e5},
-                                 PlaceLook{11, true, 7.5e4},
-                                 PlaceLook{10, false, 5e4}};
+                                 PlaceLook{11, true, 7.5e4}};
 
 /// Returns the names of places at a scale, the important ones first. Names of areas are centred on
 /// them; where the map is too small to show areas, a symbol marks the place.
@@ -40,13 +40,13 @@ std::vector<PointName> point_names(const MapScene& scene,
                                    double paper_unit,
                                    double scale_denominator) {
     auto places = scene.places;
-    std::ranges::stable_sort(places, {}, &PlaceName::rank);
+    std::ranges::stable_sort(places, {}, &MapPlace::rank);
     std::vector<PointName> names;
     for (const auto& place : places) {
         const auto& [size, bold, to_scale] =
             place_looks[std::size_t(std::clamp(place.rank, 0, int(place_looks.size()) - 1))];
         if (scale_denominator <= to_scale) {
-            names.push_back({.at = to_pixel(frame, place.position),
+            names.push_back({.at = to_pixel(frame, place.at),
                              .name = place.name,
                              .look = {std::max(min_label_px, size * paper_unit), bold}});
         }
@@ -59,7 +59,9 @@ LabelConfig label_config(double paper_unit) {
             .min_size_px = min_label_px,
             .halo_px = std::max(min_halo_px, halo_px * paper_unit),
             .gap_px = paper_unit,
-            .repeat_px = repeat_px * paper_unit};
+            .repeat_px = repeat_px * paper_unit,
+            .min_core_px = min_core * paper_unit,
+            .moves_others = true};
 }
 
 /// Returns the distance from the centre of a road to the edge of its painted line.
@@ -118,7 +120,6 @@ std::vector<Label> map_labels(const MapScene& scene,
     if (scene.base) {
         config.halo_px *= base_map_halo;
     }
-    config.moves_others = true;
     const auto names = road_names(scene.lines, placement.frame, widths, [&](const MapLine& line) {
         return is_named(line.rank, scale_denominator);
     });

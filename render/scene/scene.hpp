@@ -6,7 +6,6 @@
 #include "mapping/style/base_map.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "mapping/style/map_style_values.hpp"
-#include "mapping/style/place_name.hpp"
 #include "render/projection/crs_projection.hpp"
 
 #include <cstdint>
@@ -44,6 +43,13 @@ struct MapEvent {
     Severity severity;
 };
 
+/// Place with a name for the map.
+struct MapPlace {
+    std::string name;
+    int rank = 0; ///< 0 city, 1 town, 2 village, 3 suburb: size and priority of the name
+    GeoPoint at;
+};
+
 struct MapStyle {
     enum class Theme { light, dark, print };
     Theme theme = Theme::light;
@@ -68,7 +74,7 @@ struct MapScene {
     GeoBox box;
     std::vector<MapLine> lines;
     std::vector<MapEvent> events{};  ///< drawn over the roads, with entries in the legend
-    std::vector<PlaceName> places{}; ///< named on the map, as far as there is room
+    std::vector<MapPlace> places{}; ///< named on the map, as far as there is room
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
     std::string attribution;      ///< copyright notice
