@@ -193,11 +193,11 @@ std::vector<Legend> forms_of(const Legend& legend) {
 LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter) {
     LegendCard card{.legend = legend, .columns = columns, .unit = unit};
     const TextLook look{text_px * unit};
-    double alone_px = 0; // names without a range may use its column
+    double alone_px = 0; // names without a range and a length may use their columns
     for (const auto& entry : legend.entries) {
         const double name_px = setter.width_px(entry.name, look);
-        (entry.range.empty() ? alone_px : card.name_px) =
-            std::max(entry.range.empty() ? alone_px : card.name_px, name_px);
+        auto& column_px = entry.range.empty() && entry.length.empty() ? alone_px : card.name_px;
+        column_px = std::max(column_px, name_px);
         card.range_px = std::max(card.range_px, setter.width_px(entry.range, look));
         card.length_px = std::max(card.length_px, setter.width_px(entry.length, look));
     }

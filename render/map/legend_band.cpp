@@ -12,6 +12,9 @@ constexpr double max_around = 0.02; // share of roads around the data on ground 
 bool is_empty_around(const MapScene& scene) {
     const auto& box = scene.box;
     const auto around = std::ranges::count_if(scene.lines, [&](const MapLine& line) {
+        if (line.line.empty()) {
+            return false;
+        }
         const auto& point = line.line.front();
         return point.lat_deg < box.south_deg || point.lat_deg > box.north_deg ||
                point.lon_deg < box.west_deg || point.lon_deg > box.east_deg;
@@ -34,7 +37,7 @@ LegendCard widest_card(const Legend& legend, double room_px, double unit, TypeSe
 
 std::optional<LegendBand>
 legend_band(const MapScene& scene, const Legend& legend, const Layout& layout, TypeSetter& setter) {
-    if (legend.entries.empty() || scene.to_the_edge || !is_empty_around(scene)) {
+    if (legend.entries.empty() || scene.to_the_edge || scene.base || !is_empty_around(scene)) {
         return {};
     }
     const double margin = card_margin_px * layout.unit;

@@ -16,7 +16,7 @@ struct LegendBand {
 
 /// Gives the legend a band of the sheet that would be empty ground because the data has another
 /// shape: beside the map or below it. `std::nullopt` if the legend does not fit there without
-/// reducing the map's scale, or if roads fill the ground around the data.
+/// reducing the map's scale, or if roads or a base map fill the ground around the data.
 ///
 /// \param layout  whose map is the whole area between header and footer
 std::optional<LegendBand>

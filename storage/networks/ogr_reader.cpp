@@ -72,6 +72,16 @@ std::string text_in(const OGRFeature& feature, int column) {
                                                                : "";
 }
 
+/// Returns the first text of a list as osmnx writes it where it joined roads, such as
+/// ['Kungsgatan', 'Kungsbron']; other texts as they are.
+std::string first_of_list(std::string text) {
+    if (text.size() < 4 || text[0] != '[' || (text[1] != '\'' && text[1] != '"')) {
+        return text;
+    }
+    const auto end = text.find(text[1], 2);
+    return end == std::string::npos ? text : text.substr(2, end - 2);
+}
+
 std::optional<Oneway> parse_oneway(std::string_view text) {
     struct Spelling {
         std::string_view text;
@@ -238,8 +248,8 @@ private:
                              in_quotes(oneway)));
         }
         return {.id = id_of(feature),
-                .name = text_in(feature, columns_.name),
-                .highway = text_in(feature, columns_.highway),
+                .name = first_of_list(text_in(feature, columns_.name)),
+                .highway = first_of_list(text_in(feature, columns_.highway)),
                 .oneway = *parsed,
                 .node_ids = {},
                 .line = {}};

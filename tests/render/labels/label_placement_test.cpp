@@ -322,4 +322,62 @@ TEST(LabelPainter, HaloIsEveryPixelWithinReachOfInk) {
     }
 }
 
+TEST(LabelPlacement, CentresTheNameOfAPlaceUnlessASymbolIsThere) {
+    TypeSetter setter;
+    PointName place{.at = {768, 1280}, .name = "Ort", .look = {14, true}};
+    const auto alone = placed_labels({}, {&place, 1}, cell, {}, setter);
+    ASSERT_EQ(alone.size(), 1U);
+    EXPECT_NEAR((alone[0].box.left + alone[0].box.right) / 2, 768, 1);
+
+    place.symbol_px = 3;
+    const auto beside = placed_labels({}, {&place, 1}, cell, {}, setter);
+    ASSERT_EQ(beside.size(), 1U);
+    EXPECT_GT(beside[0].letters[0][0].x, 768 + 3); // to its upper right
+    EXPECT_LT(beside[0].letters[0][1].y, 1280 + 3);
+}
+
+TEST(LabelPlacement, PutsThePlaceWhereItCoversTheFewestRoads) {
+    TypeSetter setter;
+    const PointName place{.at = {768, 1280}, .name = "Ort", .look = {14, true}, .symbol_px = 3};
+    const auto street = road("", {{260, 250}, {500, 250}}); // to the upper right
+    const auto labels = placed_labels({&street, 1}, {&place, 1}, cell, {}, setter);
+    ASSERT_EQ(labels.size(), 1U);
+    EXPECT_LT(labels[0].box.right, 768 + 5); // the next best, to the left
+}
+
+TEST(LabelPlacement, TellsNumbersOfRoadsFromNames) {
+    for (const auto* const number : {"A9", "B 191", "E 45", "73", "D6007", "CG-1", "B10a"}) {
+        EXPECT_TRUE(is_road_number(number)) << number;
+    }
+    for (const auto* const name : {"", "Weg 12", "A", "Platz", "12345", "Straße 7", "A 9; A 92"}) {
+        EXPECT_FALSE(is_road_number(name)) << name;
+    }
+}
+
+TEST(LabelPlacement, PutsTheNumberOfARoadUprightOnIt) {
+    const auto labels = labels_of({road("B 191", {{50, 60}, {450, 460}})});
+    ASSERT_EQ(labels.size(), 1U);
+    EXPECT_TRUE(labels[0].is_shield);
+    EXPECT_EQ(labels[0].glyphs.front().pose.along_x, 1);
+    EXPECT_NEAR((labels[0].box.left + labels[0].box.right) / 2 - cell_box.left,
+                (labels[0].box.top + labels[0].box.bottom) / 2 - cell_box.top - 10,
+                2); // on the line, which is 10 px lower
+}
+
+TEST(LabelPlacement, MovesALabelAsideForOneWithoutRoom) {
+    LabelConfig config;
+    const auto count = [&](const std::vector<RoadName>& roads) {
+        return labels_of(roads, config).size();
+    };
+    std::size_t before = 0;
+    std::size_t after = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        config.moves_others = false;
+        before += count(crooked_streets(seed));
+        config.moves_others = true;
+        after += count(crooked_streets(seed));
+    }
+    EXPECT_GT(after, before);
+}
+
 } // namespace macadam::testing

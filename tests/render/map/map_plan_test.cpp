@@ -122,9 +122,11 @@ TEST(MapPlan, NeedsRoadsFarAroundInAProjection) {
         is_within(MapPlan(words(), {}, size).ground(), MapPlan(projected, {}, size).ground()));
 }
 
-TEST(MapPlan, KeepsItsGroundWhereTheLegendFindsACorner) {
+TEST(MapPlan, KeepsItsGroundOnceItHasItsRoads) {
     MapPlan plan{words(), {}, size};
+    plan.set_roads(one_street());
     const auto ground = plan.ground();
+    EXPECT_TRUE(is_within(town, ground));
     plan.set_roads(one_street());
     EXPECT_TRUE(is_within(plan.ground(), ground));
 }

@@ -303,10 +303,11 @@ TEST(Map, WritesTheNamesOfItsRoadsUnlessTold) {
     line.name = "Langenloiser Straße";
     const auto sheet = scene({line}, 400);
     const auto ink = palette(MapStyle::Theme::light).ink;
-    const PixelBox above{0, 200, 512, 300};
-    EXPECT_GT(count_of(render_map(sheet, {.legend = false}, 512, 512), above, ink), 0U);
-    EXPECT_EQ(count_of(render_map(sheet, {.labels = false, .legend = false}, 512, 512), above, ink),
-              0U);
+    const PixelBox above{0, 400, 1024, 600};
+    EXPECT_GT(count_of(render_map(sheet, {.legend = false}, 1024, 1024), above, ink), 0U);
+    EXPECT_EQ(
+        count_of(render_map(sheet, {.labels = false, .legend = false}, 1024, 1024), above, ink),
+        0U);
 }
 
 TEST(Map, IsTheSameByteForByteEachTime) {

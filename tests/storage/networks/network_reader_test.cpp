@@ -383,6 +383,17 @@ TEST(NetworkReader, FindsTheUsualColumnsOfALayer) {
     EXPECT_EQ(way.oneway, Oneway::backward);
 }
 
+TEST(NetworkReader, TakesTheFirstNameOfAListThatOsmnxWrites) {
+    const auto ways = read_geojson(
+        geojson_of({{R"({"name":"['Kungsgatan', 'Kungsbron']","highway":"['primary', 'trunk']"})",
+                     line("[18,59],[18.1,59]")},
+                    {R"({"name":"[Sic] Road","highway":"service"})", line("[18,60],[18.1,60]")}}));
+    ASSERT_EQ(ways.size(), 2U);
+    EXPECT_EQ(ways[0].name, "Kungsgatan");
+    EXPECT_EQ(ways[0].highway, "primary");
+    EXPECT_EQ(ways[1].name, "[Sic] Road");
+}
+
 TEST(NetworkReader, TakesTheColumnsThatAreNamed) {
     const auto text =
         geojson_of({{R"({"LINK":501,"gata":"Kungsgatan","dir":"FT"})", line("[18,59],[18.1,59]")}});
