@@ -73,7 +73,7 @@ struct MapScene {
     /// 180 degrees, it continues over the antimeridian, as do the longitudes of the lines.
     GeoBox box;
     std::vector<MapLine> lines;
-    std::vector<MapEvent> events{};  ///< drawn over the roads, with entries in the legend
+    std::vector<MapEvent> events{}; ///< drawn over the roads, with entries in the legend
     std::vector<MapPlace> places{}; ///< named on the map, as far as there is room
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
