@@ -101,11 +101,6 @@ LabelInks label_inks(const Palette& colours) {
     return {colours.ink, colours.quiet_ink, colours.ground};
 }
 
-double denominator_of(const MapFrame& frame, const Layout& layout) {
-    const double middle_px = (layout.map.top + layout.map.bottom) / 2;
-    return scale_denominator(metres_per_px(frame, middle_px) * layout.paper_unit);
-}
-
 std::vector<BackgroundShape> shown_background(std::span<const BackgroundTile> tiles,
                                               const GeoBox& box,
                                               const MapFrame& frame,
@@ -113,7 +108,7 @@ std::vector<BackgroundShape> shown_background(std::span<const BackgroundTile> ti
     return background_shapes(tiles,
                              frame,
                              layout.map,
-                             {layout.paper_unit, denominator_of(frame, layout)},
+                             {layout.paper_unit, scale_denominator_of(frame, layout)},
                              (box.west_deg + box.east_deg) / 2);
 }
 
@@ -171,7 +166,16 @@ void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events
 }
 
 const BackgroundLevel& MapPlan::background_level() const {
-    return macadam::background_level(denominator_of(placement_.frame, layout_));
+    return macadam::background_level(scale_denominator_of(placement_.frame, layout_));
+}
+
+void MapPlan::set_background(MapBackground background) {
+    background_ = std::move(background);
+    scene_.places.clear();
+    for (const auto& place : background_.places) {
+        scene_.places.push_back(
+            {.name = place.name, .rank = int(place.rank), .at = place.position});
+    }
 }
 
 GeoBox MapPlan::ground() const {

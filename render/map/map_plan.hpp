@@ -47,7 +47,7 @@ public:
     const BackgroundLevel& background_level() const;
 
     /// Sets what lies below the roads of the ground.
-    void set_background(MapBackground background) { background_ = std::move(background); }
+    void set_background(MapBackground background);
 
     const MapScene& scene() const { return scene_; }
     const MapStyle& style() const { return style_; }
