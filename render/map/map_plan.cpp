@@ -7,7 +7,7 @@
 #include "render/labels/label_painter.hpp"
 #include "render/map/base_map_blend.hpp"
 #include "render/map/event_symbols.hpp"
-#include "render/map/legend_band.hpp"
+#include "render/map/legend.hpp"
 #include "render/map/map_labels.hpp"
 #include "render/map/pdf_background.hpp"
 #include "render/map/pdf_labels.hpp"

@@ -1,7 +1,7 @@
 #include "render/map/map_surround.hpp"
 
 #include "mapping/geometry/line_clipping.hpp"
-#include "render/map/legend_band.hpp"
+#include "render/map/legend.hpp"
 #include "render/scene/scale_bar.hpp"
 
 #include <algorithm>
