@@ -105,7 +105,7 @@ LabelQuad corners_of(const PixelBox& box) {
 struct City {
     MapScene scene = city();
     PictureSize size{.width_px = 4961, .height_px = 7016, .px_per_inch = 300}; // A2
-    TypeSetter setter;
+    TypeSetter setter{};
     Layout layout = layout_of(scene, size, setter);
     Placement placement = placement_of(scene, legend_of(scene, {}, classes_of({})), layout, setter);
     double scale_denominator =
