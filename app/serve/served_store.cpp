@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/sqlite/sqlite_header_check.hpp"
 #include "storage/store/fusion/store_version.hpp"
 
 #include <fmt/format.h>
@@ -78,6 +79,7 @@ bool ServedStore::look() {
     if (const auto inode = inode_of(file_); inode == 0) {
         throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
     } else if (!watch_ || watch_->inode != inode) {
+        expect_store_file(file_);
         auto watch = std::make_unique<Watch>(file_);
         if (watch_) { // replaced
             ++epoch_;

@@ -3,10 +3,12 @@
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -31,13 +33,34 @@ constexpr std::array kinds{Kind{"\x89PNG", "a PNG picture"},
                            Kind{"\x28\xb5\x2f\xfd", "a Zstandard-compressed file"},
                            Kind{"fgb\3", "a FlatGeobuf file"}};
 
+struct Close {
+    void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+};
+
+/// First bytes of a file, empty if it cannot be read. They are read with SQLite: where it has the
+/// file open in this process, any other descriptor would drop its locks as it is closed.
+///
+/// Source: How To Corrupt An SQLite Database File, 2.2.1.
 std::string head_of(const std::filesystem::path& file) {
-    constexpr std::size_t enough = 256;
-    std::string head(enough, '\0');
-    std::ifstream in{file, std::ios::binary};
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(in.gcount()));
-    return head;
+    constexpr sqlite3_int64 enough = 256;
+    sqlite3* opened = nullptr;
+    const auto name = std::filesystem::absolute(file).string(); // never ":memory:"
+    const int code =
+        sqlite3_open_v2(name.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, nullptr);
+    const std::unique_ptr<sqlite3, Close> database{opened};
+    sqlite3_file* bytes = nullptr;
+    if (code != SQLITE_OK ||
+        sqlite3_file_control(
+            opened, "main", SQLITE_FCNTL_FILE_POINTER, static_cast<void*>(&bytes)) != SQLITE_OK ||
+        bytes->pMethods == nullptr) {
+        return {};
+    }
+    sqlite3_int64 size = 0;
+    bytes->pMethods->xFileSize(bytes, &size);
+    std::string head(static_cast<std::size_t>(std::min(size, enough)), '\0');
+    const bool is_read =
+        bytes->pMethods->xRead(bytes, head.data(), static_cast<int>(head.size()), 0) == SQLITE_OK;
+    return is_read ? head : std::string{};
 }
 
 bool is_text(std::string_view head) {

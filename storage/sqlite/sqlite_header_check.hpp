@@ -4,7 +4,8 @@
 
 namespace macadam {
 
-/// Checks the first bytes of a file that should be a road database, before SQLite opens it.
+/// Checks the first bytes of a file that should be a road database, before SQLite opens it
+/// as one. Locks that SQLite holds on the file in this process stay.
 ///
 /// \throws InputError  if the file does not exist or is not an SQLite database; the message says
 ///                     what it is.
