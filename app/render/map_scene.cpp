@@ -103,6 +103,19 @@ const ClassTable& classes_of(const MapRequest& request) {
     return *request.style.classes;
 }
 
+/// \throws InputError  if the database has no segment of the way, measured or not.
+void expect_way(const StoreReader& store, std::int64_t way_id) {
+    SegmentFilter of_way;
+    of_way.way_id = way_id;
+    of_way.with_state_only = false;
+    bool is_there = false;
+    store.visit(of_way, [&](const SegmentRecord&) { is_there = true; });
+    if (!is_there) {
+        throw InputError{
+            fmt::format("{}: the network has no way '{}'", store.file().string(), way_id)};
+    }
+}
+
 /// Builds a scene with its texts, but without lines.
 MapScene scene_around(const StoreReader& store, const MapRequest& request) {
     MapScene scene;
@@ -129,6 +142,9 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
             request.subtitle ? *class_table(store.settings().class_table) : classes_of(request);
         auto roads = selected_roads(store, request.filter, classes, request.style.min_passes);
         if (is_empty(roads.box)) {
+            if (request.filter.way_id) {
+                expect_way(store, *request.filter.way_id);
+            }
             throw InputError{fmt::format("{}: the selection contains no measured segment, expected "
                                          "at least one",
                                          store.file().string())};

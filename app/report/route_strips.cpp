@@ -1,6 +1,7 @@
 #include "app/report/route_strips.hpp"
 
 #include "app/report/strip_pieces.hpp"
+#include "estimator/common/error.hpp"
 #include "mapping/routes/linear_route.hpp"
 
 #include <algorithm>
@@ -193,6 +194,11 @@ std::vector<Strip> route_strips(const StoreReader& store,
     const auto pieces = pieces_of(roads, route);
     const auto records = records_of(store, pieces, filter);
     const double whole_m = length_m(route);
+    constexpr double shortest_m = 0.01;
+    if (whole_m < shortest_m) {
+        throw InputError{
+            "the route has no length, expected two points at different places of a road"};
+    }
     Strip whole{0, whole_m, {{wording("strip.along"), {}}, {wording("strip.against"), {}}}};
     for (const auto& piece : pieces) {
         for (std::size_t row = 0; piece.segment && row < whole.rows.size(); ++row) {

@@ -88,8 +88,8 @@ std::string reference_text(const Report& report, const WorstSection& stretch) {
         text += text.empty() ? "" : "; ";
         text += report.wording(of_osm ? "stretch.part_osm" : "stretch.part",
                                {{"way", fmt::format("{}", way_id)},
-                                {"from", report.wording.whole(forward ? from_m : to_m)},
-                                {"to", report.wording.whole(forward ? to_m : from_m)}});
+                                {"from", report.wording.short_length(forward ? from_m : to_m)},
+                                {"to", report.wording.short_length(forward ? to_m : from_m)}});
     }
     return text;
 }

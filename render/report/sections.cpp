@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -202,6 +203,19 @@ Table kind_classes_table(const Report& report) {
     return with_kinds(std::move(table), report, row_of);
 }
 
+/// Adds words, names of options in one piece each: "--way" has no break after its hyphens.
+void add_with_options(std::vector<Span>& text, std::string_view words) {
+    while (!words.empty()) {
+        const auto word = words.substr(0, words.find(' ', words.front() == ' ' ? 1 : 0));
+        const bool is_option = word.starts_with(" --");
+        if (is_option) {
+            text.push_back({" "});
+        }
+        text.push_back({std::string{word.substr(is_option ? 1 : 0)}, SpanLook::plain, is_option});
+        words.remove_prefix(word.size());
+    }
+}
+
 } // namespace
 
 RichText subtitle_of(const Report& report) {
@@ -219,7 +233,7 @@ RichText subtitle_of(const Report& report) {
         text.push_back({period.ends_with('.') ? "" : "."}); // a date may end with one
     }
     if (!report.selection.empty()) {
-        text.push_back({" " + say("head.selection", {{"options", report.selection}})});
+        add_with_options(text, " " + say("head.selection", {{"options", report.selection}}));
     }
     return text;
 }

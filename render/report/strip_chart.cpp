@@ -1,5 +1,6 @@
 #include "render/report/strip_chart.hpp"
 
+#include "estimator/common/utf8.hpp"
 #include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
 #include "render/scene/nice_step.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace macadam {
 
@@ -22,6 +24,19 @@ constexpr double line = 15;    // height of a line of text
 constexpr double row_gap = 12;
 constexpr double m_per_ft = 0.3048;
 
+/// Returns the approximate width of a text.
+double width_of(std::string_view text) {
+    std::size_t letters = 0;
+    for (; !text.empty(); ++letters) {
+        text.remove_prefix(std::max<std::size_t>(1, utf8_length(text)));
+    }
+    return letter * static_cast<double>(letters);
+}
+
+double length_m(const Strip& strip) {
+    return std::max(strip.to_m - strip.from_m, 1.0);
+}
+
 /// Scales of a chart. A row's columns stand on its bottom.
 struct Scales {
     const Strip& strip;
@@ -30,8 +45,7 @@ struct Scales {
     double row_height;
 
     double x(double at_m) const {
-        return left + (width - right_margin - left) * (at_m - strip.from_m) /
-                          std::max(strip.to_m - strip.from_m, 1.0);
+        return left + (width - right_margin - left) * (at_m - strip.from_m) / length_m(strip);
     }
     double height(double iri) const { return row_height * std::min(iri / max_iri, 1.0); }
 };
@@ -100,7 +114,7 @@ void add_marks(Drawing& drawing, const Scales& scales, double names_y, double to
     for (const auto& [at_m, name] : scales.strip.marks) {
         const double x = scales.x(at_m);
         drawing.shapes.emplace_back(Stroke{StrokeLook::grid, {{x, top}, {x, bottom}}});
-        const double half = letter / 2 * static_cast<double>(name.size());
+        const double half = width_of(name) / 2;
         if (x - half >= free_from && x + half <= scales.width) {
             drawing.shapes.emplace_back(Label{x, names_y, Anchor::middle, name});
             free_from = x + half + letter;
@@ -112,10 +126,9 @@ void add_chainage(Drawing& drawing, const Report& report, const Scales& scales, 
     const auto& say = report.wording;
     const double unit_m = say.unit == IriUnit::in_per_mi ? m_per_ft : 1;
     const auto& strip = scales.strip;
-    const double step_m =
-        nice_step((strip.to_m - strip.from_m) / unit_m, scales.width > 500 ? 10 : 4) * unit_m;
+    const double step_m = nice_step(length_m(strip) / unit_m, scales.width > 500 ? 10 : 4) * unit_m;
     const auto end = say("strip.axis");
-    const double last_x = scales.width - right_margin - letter * static_cast<double>(end.size());
+    const double last_x = scales.width - right_margin - width_of(end);
     for (double at_m = std::max(0.0, std::ceil(strip.from_m / step_m - 1e-9) * step_m);
          at_m <= strip.to_m && scales.x(at_m) < last_x - 2 * letter;
          at_m += step_m) {
@@ -200,7 +213,12 @@ DocumentSection strip_section(const Report& report) {
             }
         }
     }
-    section.blocks.emplace_back(std::move(table));
+    if (table.rows.empty()) {
+        section.blocks.clear();
+        section.blocks.emplace_back(Paragraph{say("strip.none")});
+    } else {
+        section.blocks.emplace_back(std::move(table));
+    }
     return section;
 }
 

@@ -1,6 +1,7 @@
 #include "render/report/document/html.hpp"
 
 #include "estimator/common/utf8.hpp"
+#include "render/report/document/bidi_control.hpp"
 
 #include <fmt/format.h>
 
@@ -35,9 +36,13 @@ std::string escaped(std::string_view text) {
     html.reserve(text.size());
     while (!text.empty()) {
         const auto length = utf8_length(text);
-        html += length == 0   ? replacement
-                : length == 1 ? as_html(text.front(), text.substr(0, 1))
-                              : text.substr(0, length);
+        if (length == 0) {
+            html += replacement;
+        } else if (length == 1) {
+            html += as_html(text.front(), text.substr(0, 1));
+        } else if (!is_bidi_control(text.substr(0, length))) {
+            html += text.substr(0, length);
+        }
         text.remove_prefix(std::max<std::size_t>(1, length));
     }
     return html;

@@ -11,7 +11,7 @@
 namespace macadam {
 
 /// Escapes text for use in an element or in a quoted attribute. Control characters become blanks,
-/// and bytes that are not UTF-8 become the replacement character.
+/// bytes that are not UTF-8 become the replacement character, and controls of direction go.
 std::string escaped(std::string_view text);
 
 /// Encodes bytes by RFC 4648, with padding.

@@ -1,6 +1,9 @@
 #include "render/report/document/pdf_text.hpp"
 
+#include "render/report/document/bidi_control.hpp"
+
 #include <algorithm>
+#include <string_view>
 
 namespace macadam {
 
@@ -19,15 +22,22 @@ struct FreeAttributes {
     void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
 };
 
-/// Returns valid UTF-8 without control characters except line breaks.
+/// Returns valid UTF-8 without control characters except line breaks, nor ones of direction.
 std::string cleaned(const std::string& text) {
     char* const valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
-    std::string clean{valid};
+    const std::string all{valid};
     g_free(valid);
-    std::ranges::replace_if(
-        clean,
-        [](char c) { return c != '\n' && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F); },
-        ' ');
+    std::string clean;
+    for (std::string_view rest{all}; !rest.empty();) {
+        const auto letter = rest.substr(0, std::max<std::size_t>(1, utf8_length(rest)));
+        const auto first = static_cast<unsigned char>(letter.front());
+        if (first != '\n' && (first < 0x20 || first == 0x7F)) {
+            clean += ' ';
+        } else if (!is_bidi_control(letter)) {
+            clean += letter;
+        }
+        rest.remove_prefix(letter.size());
+    }
     return clean;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -50,6 +51,15 @@ protected:
         const auto run = run_macadam({"report", store, "-o", out(name), "--title", "A <road>"});
         EXPECT_EQ(run.exit_status, 0) << run.err;
         return read_file(out(name));
+    }
+
+    /// Returns the position of the beginning of a measured segment, "LAT,LON".
+    std::string place_on_road(std::size_t segment) const {
+        const auto run = run_macadam({"export", store_, "-o", out("all.geojson")});
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        const auto all = nlohmann::json::parse(read_file(out("all.geojson")));
+        const auto at = all.at("features").at(segment).at("geometry").at("coordinates").at(0);
+        return fmt::format("{},{}", at.at(1).get<double>(), at.at(0).get<double>());
     }
 
     fs::path folder_;
@@ -133,6 +143,32 @@ TEST_F(ReportProgram, OfAStoreWithoutTripsSaysThatNothingWasMeasured) {
     EXPECT_THAT(report(empty_, "empty.html"), HasSubstr("No measurements yet."));
 }
 
+TEST_F(ReportProgram, OfARouteNeverDrivenSaysThatNothingWasMeasuredAlongIt) {
+    const auto run = run_macadam(
+        {"report", empty_, "-o", out("way.html"), "--route", place_on_road(0), place_on_road(9)});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(read_file(out("way.html")), HasSubstr("No measurement along this road."));
+}
+
+TEST_F(ReportProgram, SaysThatAWayIsNotOnTheNetworkOrNotMeasured) {
+    const auto refusal_of = [&](const std::string& way) {
+        return run_macadam({"render", empty_, "-o", out("a.png"), "--way", way}).err;
+    };
+    EXPECT_THAT(refusal_of("42"), HasSubstr("the network has no way '42'"));
+    EXPECT_THAT(refusal_of("1"), HasSubstr("the selection contains no measured segment"));
+}
+
+TEST_F(ReportProgram, RefusesARouteBetweenTwoPointsAtOnePlace) {
+    const auto place = place_on_road(0);
+    const auto run =
+        run_macadam({"report", store_, "-o", out("here.html"), "--route", place, place});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err,
+                HasSubstr("the route has no length, expected two points at different places of a "
+                          "road"));
+    EXPECT_FALSE(fs::exists(out("here.html")));
+}
+
 TEST_F(ReportProgram, RefusesToReplaceTheStoreThatItReads) {
     const auto link = out("link.html");
     fs::create_symlink(store_, link);
@@ -160,7 +196,7 @@ TEST_F(ReportProgram, IsMisusedByAnotherNameANumberOrAClassTableThatIsNone) {
              {{"-o", "a.pdf", "--paper", "A3"}, "--paper is 'A3', expected A4 or letter"},
              {{"-o", "a.pdf", "--unit", "m/km"},
               "--units is 'm/km', expected si or us or mm/m or in/mi"},
-             {{"-o", "a.pdf", "--language", "xx"}, 
+             {{"-o", "a.pdf", "--language", "xx"},
               "--language is 'xx', expected en, de, hu or the path of a .po file"},
              {{"-o", "a.pdf", "--compare-since", "spring"},
               "--compare-since is 'spring', expected a time such as"},

@@ -235,6 +235,48 @@ TEST(StripChart, DrawsEachPieceAsHighAsItIsRoughWithItsInterval) {
     EXPECT_EQ(flaw_in(report_html(report)), "");
 }
 
+TEST(StripChart, OfARoadWithoutLengthEnds) {
+    auto report = town();
+    report.strips = {{0, 0, {{"along", {{0, 0, 2, 1, 3, 1}}}}, {}, {}}};
+    const auto drawing = strip_drawing(report, report.strips[0], strip_on_page, "IRI");
+    EXPECT_LT(drawing.shapes.size(), 30U);
+}
+
+TEST(StripChart, OfARoadNeverMeasuredSaysSo) {
+    auto report = town();
+    report.strips = {{0, 100, {{"along", {}}}, {{40, "High Street"}}, {}}};
+    const auto html = report_html(report);
+    EXPECT_THAT(html, HasSubstr("No measurement along this road."));
+    EXPECT_THAT(html, Not(HasSubstr("Segments by chainage")));
+    EXPECT_THAT(html, Not(HasSubstr("High Street")));
+}
+
+TEST(StripChart, NamesARoadWhoseLettersHaveManyBytesWhereThereIsRoom) {
+    auto report = town();
+    const std::string name(20, 'x');
+    std::string of_two_bytes;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        of_two_bytes += "\u0416";
+    }
+    const auto is_named = [&](const std::string& by) {
+        report.strips = {{0, 100, {{"along", {{0, 100, 2, 1, 3, 1}}}}, {{12, by}}, {}}};
+        const auto drawing = strip_drawing(report, report.strips[0], strip_on_page, "IRI");
+        return std::ranges::any_of(drawing.shapes, [&](const auto& shape) {
+            const auto* const label = std::get_if<document::Label>(&shape);
+            return label != nullptr && label->text == by;
+        });
+    };
+    EXPECT_TRUE(is_named(name));
+    EXPECT_TRUE(is_named(of_two_bytes));
+    EXPECT_FALSE(is_named(name + name));
+}
+
+TEST(Report, SaysTheChainageInFeetInAmericanReports) {
+    auto report = town();
+    report.wording.unit = IriUnit::in_per_mi;
+    EXPECT_THAT(report_html(report), HasSubstr("OSM way 123456, chainage 328–787 ft<br>"));
+}
+
 TEST(Report, OfNothingMeasuredSaysSo) {
     const auto html = report_html(nothing_measured());
     EXPECT_THAT(html, HasSubstr("No measurements yet."));
@@ -352,6 +394,7 @@ TEST(Html, EscapesWhatMarkupIsMadeOf) {
     EXPECT_EQ(escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
     EXPECT_EQ(escaped("Épée 漢字 😀"), "Épée 漢字 😀");
     EXPECT_EQ(escaped("a\nb\x7f"), "a b ");
+    EXPECT_EQ(escaped("a\u202Eb\u2066c\u2069\u2019"), "abc\u2019"); // nothing turned round
 }
 
 TEST(Html, ReplacesWhatIsNoUtf8) {
