@@ -41,14 +41,21 @@ std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file)
                           done.made_key ? ", which is new: keep a copy of it apart from the "
                                           "database"
                                         : "");
+    constexpr int first_version_with_events = 4;
+    const auto* const potholes = done.from_version < first_version_with_events
+                                     ? "run 'macadam reprocess' to search the trips for potholes\n"
+                                     : "";
     return fmt::format("{}: upgraded from version {} to {}{}\n"
                        "digest before and after: {}\n"
-                       "run 'macadam reprocess' to search the trips for potholes\n",
+                       "{}run 'macadam init {} --update MAP' for water, green and names of "
+                       "places on maps\n",
                        file.string(),
                        done.from_version,
                        done.to_version,
                        cars,
-                       done.digest);
+                       done.digest,
+                       potholes,
+                       file.string());
 }
 
 /// Upgrades the schema of a database on a server, whose data stay as they are.

@@ -17,8 +17,10 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
@@ -103,6 +105,18 @@ TEST_F(UpgradeProgram, HasNothingToDoASecondTime) {
     EXPECT_EQ(again.exit_status, 0);
     EXPECT_THAT(again.out, HasSubstr("roads.gpkg: is already of version 6, nothing to do"));
     EXPECT_EQ(read_file(store_), content);
+}
+
+TEST_F(UpgradeProgram, TellsToSearchForPotholesOnlyWhereTheVersionHadNone) {
+    const auto background = "run 'macadam init " + store_ + " --update MAP' for water";
+    EXPECT_THAT(run("upgrade").out,
+                AllOf(HasSubstr("run 'macadam reprocess'"), HasSubstr(background)));
+    Database{store_, Database::Access::write}.run("UPDATE meta SET value = '5' WHERE key = "
+                                                  "'version'");
+    EXPECT_THAT(run("upgrade").out,
+                AllOf(HasSubstr("upgraded from version 5 to 6"),
+                      Not(HasSubstr("reprocess")),
+                      HasSubstr(background)));
 }
 
 TEST_F(UpgradeProgram, RefusesAStoreOfANewerProgramOrWithViewsOfOthers) {
