@@ -23,9 +23,12 @@ constexpr std::string_view template_name = "macadam.pot";
 
 std::vector<PoEntry> read_po(const fs::path& file) {
     constexpr std::size_t max_bytes = 4'000'001; // parse_po refuses one more than it takes
-    std::ifstream stream{file, std::ios::binary};
+    std::ifstream stream;
     std::error_code error;
-    if (!stream || !fs::is_regular_file(file, error)) {
+    if (fs::is_regular_file(file, error)) { // a pipe without a writer would keep open() waiting
+        stream.open(file, std::ios::binary);
+    }
+    if (!stream.is_open()) {
         throw InputError{
             fmt::format("{}: cannot be read, expected a catalogue (.po)", file.string())};
     }

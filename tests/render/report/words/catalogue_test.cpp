@@ -5,6 +5,7 @@
 #include "support/files/files.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -136,6 +137,10 @@ TEST(Catalogue, OfALanguageMoreIsRefusedWhereItsPlacesAreWrong) {
                 HasSubstr("xx.po:5: 2 translations, expected 1"));
     EXPECT_THAT(refusal([] { language_from("/nowhere/xx.po"); }),
                 HasSubstr("/nowhere/xx.po: cannot be read, expected a catalogue (.po)"));
+    const auto pipe = testing::test_folder() / "pipe.po";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(refusal([&] { language_from(pipe); }),
+                HasSubstr("pipe.po: cannot be read, expected a catalogue (.po)"));
 }
 
 // ---------------------------------------------------------------------------------------- syntax
