@@ -24,7 +24,7 @@ after(async () => {
 });
 
 // A page that fails if it asks for anything but itself, logs an error or throws.
-async function opened(width, more = {}) {
+async function opened(width, more = {}, hash = '') {
   const context = await browser.newContext({ viewport: { width, height: 800 }, ...more });
   const page = await context.newPage();
   page.setDefaultTimeout(20_000);
@@ -32,7 +32,7 @@ async function opened(width, more = {}) {
   page.on('request', (request) => { if (!/^(blob:|data:|file:)/.test(request.url())) wrong.push(`asked ${request.url()}`); });
   page.on('pageerror', (error) => wrong.push(String(error)));
   page.on('console', (message) => { if (message.type() === 'error') wrong.push(message.text()); });
-  await page.goto(`file://${folder}/report.html`);
+  await page.goto(`file://${folder}/report.html${hash}`);
   return { page, async close() { assert.deepEqual(wrong, []); await context.close(); } };
 }
 
@@ -93,6 +93,24 @@ test('saves a table as CSV with decimal points', async () => {
   const text = readFileSync(await download.path(), 'utf8');
   assert.equal(text.trim().split('\r\n').length, rows);
   assert.match(text, /,\d+\.\d+,/);
+  await close();
+});
+
+test('gives a spreadsheet no formula, and keeps numbers with a sign', async () => {
+  const { page, close } = await opened(1440);
+  const texts = ['=1+1', '-2+3', '+cmd', '@a', '-1.5'];
+  await page.locator('main table').first().evaluate((table, cells) => {
+    table.tBodies[0].rows[0].replaceChildren(...cells.map((text) => Object.assign(document.createElement('td'), { textContent: text })));
+  }, texts);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('.save').first().click()]);
+  const rows = readFileSync(await download.path(), 'utf8').split('\r\n');
+  assert.ok(rows.includes("'=1+1,'-2+3,'+cmd,'@a,-1.5"), rows.join('\n'));
+  await close();
+});
+
+test('works when a link to it is damaged', async () => {
+  const { page, close } = await opened(1440, {}, '#%');
+  assert.ok(await page.locator('.save').count() > 3);
   await close();
 });
 

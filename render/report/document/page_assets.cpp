@@ -169,7 +169,7 @@ const words = (cell) => (cell.querySelector('svg.share') || cell).ariaLabel || c
 // Sections are folded on phones, but not those that a link leads to, and none on paper.
 const sections = all('main details');
 const unfold = () => {
-  const target = location.hash.length > 1 && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const target = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
   const section = target && target.closest('details');
   if (section && !section.open) { section.open = true; target.scrollIntoView(); }
 };
@@ -210,7 +210,8 @@ function csvOf(table) {
   };
   return all('tr', table).map((row) => [...row.cells].map((cell) => {
     const text = plain(words(cell));
-    return field(/^[=@\t\r]/.test(text) ? `'${text}` : text); // no formula of a spreadsheet
+    const formula = /^[=@\t\r+-]/.test(text) && !/^[+-]?\d+(\.\d+)?$/.test(text);
+    return field(formula ? `'${text}` : text); // of a spreadsheet
   }).join(',')).join('\r\n');
 }
 
