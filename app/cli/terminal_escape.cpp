@@ -13,8 +13,8 @@ namespace {
 /// Tests for the controls of the Unicode Bidirectional Algorithm (UAX 9, 2) and for line and
 /// paragraph separators.
 bool steers_writing(std::uint32_t letter) {
-    return letter == 0x061C || (0x200E <= letter && letter <= 0x200F) ||
-           (0x2028 <= letter && letter <= 0x202E) || (0x2066 <= letter && letter <= 0x2069);
+    return is_bidi_control(letter) || letter == 0x061C || letter == 0x200E || letter == 0x200F ||
+           letter == 0x2028 || letter == 0x2029;
 }
 
 /// Tests for C0, DEL and C1 of ECMA-48.

@@ -46,4 +46,10 @@ inline std::uint32_t utf8_letter(std::string_view sequence) {
     return letter;
 }
 
+/// Tests for letters that turn the direction of the text after them: the embeddings, overrides and
+/// isolates of the Unicode Bidirectional Algorithm (UAX 9, 2.1 to 2.5).
+inline bool is_bidi_control(std::uint32_t letter) {
+    return (0x202A <= letter && letter <= 0x202E) || (0x2066 <= letter && letter <= 0x2069);
+}
+
 } // namespace macadam

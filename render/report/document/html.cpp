@@ -1,7 +1,6 @@
 #include "render/report/document/html.hpp"
 
 #include "estimator/common/utf8.hpp"
-#include "render/report/document/bidi_control.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +39,7 @@ std::string escaped(std::string_view text) {
             html += replacement;
         } else if (length == 1) {
             html += as_html(text.front(), text.substr(0, 1));
-        } else if (!is_bidi_control(text.substr(0, length))) {
+        } else if (!is_bidi_control(utf8_letter(text.substr(0, length)))) {
             html += text.substr(0, length);
         }
         text.remove_prefix(std::max<std::size_t>(1, length));

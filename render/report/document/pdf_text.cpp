@@ -1,6 +1,6 @@
 #include "render/report/document/pdf_text.hpp"
 
-#include "render/report/document/bidi_control.hpp"
+#include "estimator/common/utf8.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -33,7 +33,7 @@ std::string cleaned(const std::string& text) {
         const auto first = static_cast<unsigned char>(letter.front());
         if (first != '\n' && (first < 0x20 || first == 0x7F)) {
             clean += ' ';
-        } else if (!is_bidi_control(letter)) {
+        } else if (!is_bidi_control(utf8_letter(letter))) {
             clean += letter;
         }
         rest.remove_prefix(letter.size());
