@@ -1,3 +1,4 @@
+#include "app/cli/row_output.hpp"
 #include "app/cli/server_commands.hpp"
 #include "app/cli/text_table.hpp"
 #include "app/jobs/job_options.hpp"
@@ -122,9 +123,11 @@ std::string metrics_of(const WorkStatus& status) {
 }
 
 void run_status(const Arguments& arguments, const Console&) {
+    const auto format = row_format_of(arguments);
+    const auto row_file = row_file_of(arguments);
     auto server = opened_server(server_of(arguments));
     const auto status = work_status(server, max_failed);
-    const auto format = arguments.flag("--json") ? "json" : arguments.choice("--format");
+    RowOutput output{row_file};
     if (format == "json") {
         print(json_of(status));
     } else if (format == "prometheus") {
@@ -132,13 +135,15 @@ void run_status(const Arguments& arguments, const Console&) {
     } else {
         print_words(text_of(status));
     }
+    output.commit();
 }
 
 constexpr std::array operands{server_operand};
 constexpr std::array options{
     one_of("table|json|prometheus",
            {"--format", "FORMAT", "table, json, or prometheus: counts for a monitor.", "table"}),
-    Option{"--json", "", "The same as --format json."}};
+    row_output_option,
+    json_option};
 
 } // namespace
 
@@ -152,7 +157,7 @@ const Command status_command{
              "these again, submit them again.",
     .example = "  macadam status postgresql://me@db.example.org/roads\n"
                "  macadam status postgresql://me@db.example.org/roads --format prometheus "
-               "> /var/lib/node_exporter/macadam.prom",
+               "-o /var/lib/node_exporter/macadam.prom",
     .operands = operands,
     .options = options,
     .run = run_status};

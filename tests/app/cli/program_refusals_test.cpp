@@ -181,8 +181,8 @@ TEST_F(Refusals, OfALatencyThatNoReceiverHasNameItsLine) {
 
 TEST_F(Refusals, OfAServersAddressWhereOnlyAFileServesSayHowToGetOne) {
     const std::string server = "postgresql://roads/all";
-    const std::vector<std::vector<std::string>> calls{{"import", server, good_},
-                                                      {"forget", server, "--vehicle-id", "a"},
+    const std::vector<std::vector<std::string>> calls{{"serve", server},
+                                                      {"publish", server},
                                                       {"render", server, "-o", "a.png"},
                                                       {"report", server, "-o", "a.html"}};
     for (const auto& call : calls) {

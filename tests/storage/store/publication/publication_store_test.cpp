@@ -206,7 +206,7 @@ TEST(Publication, IsTheLayerOfACrowdThatWasUpgraded) {
         ";UPDATE meta SET value = '4' WHERE key = 'version'");
     ASSERT_EQ(crowd.layer_rows(), 30);
     const auto done = upgrade_store(crowd.file, {}, [](auto) { return Progress{}; });
-    EXPECT_EQ(done.to_version, 5);
+    EXPECT_EQ(done.to_version, 6);
     EXPECT_EQ(done.digest, crowd.store.digest());
     EXPECT_EQ(crowd.layer_rows(), 0);
     crowd.publish(february_ms);
