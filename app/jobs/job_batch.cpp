@@ -40,6 +40,8 @@ std::vector<FetchedJob> fetch_jobs(const std::vector<Job>& jobs,
     parallel_for(lanes, lanes, [&](std::size_t lane) {
         for (std::size_t i = lane; i < fetched.size(); i += lanes) {
             auto& one = fetched[i];
+            std::error_code ignored;
+            fs::remove(one.file, ignored); // left by a batch that failed
             try {
                 stores[lane]->fetch({one.job.sha256, one.job.bytes}, one.file);
             } catch (const InputError& error) {

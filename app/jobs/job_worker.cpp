@@ -17,10 +17,12 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <random>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -61,7 +63,19 @@ public:
         heartbeat_.emplace(work.address, taker_);
     }
 
+    /// Works until it is stopped or done, and takes its row away, whatever ends it.
     void run() {
+        try {
+            work();
+        } catch (...) {
+            end();
+            throw;
+        }
+        end();
+    }
+
+private:
+    void work() {
         while (!console_.stop().stop_requested()) {
             try {
                 connect();
@@ -86,19 +100,19 @@ public:
                 pause(after_trouble);
             }
         }
-        end();
     }
 
-private:
     void connect() {
         if (!queue_) {
             queue_.emplace(opened_server(work_.address));
+            put_back_all(*queue_, taker_);
         }
         if (stores_.empty()) {
             const auto location =
                 work_.objects.empty() ? objects_location(*queue_) : std::optional{work_.objects};
             while (location && stores_.size() < options_.jobs) {
-                stores_.push_back(open_object_store(*location, console_.stop()));
+                stores_.push_back(
+                    open_object_store(*location, console_.stop(), MissingFolder::refuse));
             }
         }
         if (!store_) {
@@ -113,6 +127,7 @@ private:
         if (stores_.empty()) {
             return false; // nothing was submitted so far
         }
+        stores_.front()->expect_in_place();
         const auto taken =
             take_jobs(*queue_, taker_, batch_, batches_++ % retries_every == retries_every - 1);
         if (taken.empty()) {
@@ -121,8 +136,11 @@ private:
         const auto begin = Clock::now();
         try {
             work_out(taken);
-        } catch (...) {
+        } catch (const ServerTrouble&) {
             put_back(taken);
+            throw;
+        } catch (const std::exception& error) { // perhaps by one of them: each is tried alone
+            count_failure(taken, error.what());
             throw;
         }
         adapt_batch(taken.size(), Clock::now() - begin);
@@ -152,7 +170,22 @@ private:
         put_back_jobs(*queue_, taker_, worked.left);
     }
 
-    /// After an error or a stop request; what cannot be given back comes free with its lease.
+    void count_failure(const std::vector<Job>& jobs, const std::string& reason) {
+        if (console_.stop().stop_requested()) {
+            put_back(jobs);
+            return;
+        }
+        try {
+            for (const auto& job : jobs) {
+                fail_job(*queue_, taker_, job, reason);
+            }
+        } catch (const InputError&) {
+            queue_.reset();
+        }
+    }
+
+    /// After trouble of the server or a stop request; what cannot be given back comes free with its
+    /// lease.
     void put_back(const std::vector<Job>& jobs) {
         try {
             put_back_jobs(*queue_, taker_, jobs);

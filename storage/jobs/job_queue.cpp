@@ -206,6 +206,12 @@ void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<co
     }
 }
 
+void put_back_all(ServerConnection& server, const JobTaker& taker) {
+    server.rows("UPDATE macadam.job SET state = 'queued', attempts = attempts - 1,"
+                " lease_until = NULL WHERE worker = $1 AND state = 'working'",
+                {taker.worker});
+}
+
 std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit) {
     return jobs_in(server.rows(fmt::format("SELECT {} FROM macadam.job WHERE has_object"
                                            " AND state IN ('imported', 'known')"

@@ -81,6 +81,9 @@ void fail_job(ServerConnection& server,
 
 /// Gives jobs back that were not tried: these attempts do not count.
 void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job> jobs);
+/// The same for all jobs of a worker that works on none: it could not give them back as its
+/// connection broke, and its heartbeat, which has another, keeps others from taking them.
+void put_back_all(ServerConnection& server, const JobTaker& taker);
 
 /// Jobs that are done and whose objects are still stored, at most `limit`.
 std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit);

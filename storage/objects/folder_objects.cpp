@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* mark = ".macadam-objects"; // not in an empty mount point
 constexpr std::size_t block_bytes = 64 << 10;
 
 [[noreturn]] void fail(const fs::path& path, std::string_view doing, int error) {
@@ -41,9 +42,11 @@ void sync(const fs::path& folder) {
 
 class FolderObjects final : public ObjectStore {
 public:
-    explicit FolderObjects(fs::path root) : root_{std::move(root)} {
+    FolderObjects(fs::path root, MissingFolder missing) : root_{std::move(root)} {
         constexpr mode_t owner_alone = 0700;
-        if (::mkdir(root_.c_str(), owner_alone) != 0 && errno != EEXIST) {
+        if (missing == MissingFolder::refuse) {
+            expect_in_place();
+        } else if (::mkdir(root_.c_str(), owner_alone) != 0 && errno != EEXIST) {
             fail(root_, "cannot be made", errno);
         }
         struct stat status {};
@@ -55,6 +58,9 @@ public:
                 fmt::format("{}: is a file, expected a folder for objects", root_.string())};
         }
         mode_ = status.st_mode & 0777U;
+        if (missing == MissingFolder::make && !is_marked()) {
+            make(root_ / mark);
+        }
     }
 
     void put(const LogObject& object, const fs::path& file) override {
@@ -74,6 +80,7 @@ public:
     void fetch(const LogObject& object, const fs::path& file) override {
         const auto path = path_of(object.sha256);
         if (std::error_code unknown; !fs::exists(path, unknown) && !unknown) {
+            expect_in_place();
             throw InputError{
                 fmt::format("{}: object {} is missing", root_.string(), object.sha256)};
         }
@@ -90,12 +97,37 @@ public:
 
     void remove(std::string_view sha256) override {
         const auto path = path_of(sha256);
-        if (::unlink(path.c_str()) != 0 && errno != ENOENT) {
+        if (::unlink(path.c_str()) == 0) {
+            return;
+        }
+        if (errno != ENOENT) {
             fail(path, "cannot be removed", errno);
+        }
+        expect_in_place();
+    }
+
+    void expect_in_place() const override {
+        std::error_code unknown;
+        if (!fs::exists(root_, unknown)) {
+            throw InputError{
+                fmt::format("{}: is no folder here, expected the objects that 'macadam "
+                            "submit' stored; is it mounted?",
+                            root_.string())};
+        }
+        if (fs::is_directory(root_, unknown) && !is_marked()) {
+            throw InputError{fmt::format("{}: has no {}, expected the folder to which 'macadam "
+                                         "submit' stored; is it mounted?",
+                                         root_.string(),
+                                         mark)};
         }
     }
 
 private:
+    bool is_marked() const {
+        std::error_code unknown;
+        return fs::is_directory(root_ / mark, unknown);
+    }
+
     fs::path path_of(std::string_view sha256) const {
         return root_ / sha256.substr(0, 2) / sha256.substr(2, 2) / sha256;
     }
@@ -114,8 +146,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<ObjectStore> open_folder_objects(const fs::path& folder) {
-    return std::make_unique<FolderObjects>(folder);
+std::unique_ptr<ObjectStore> open_folder_objects(const fs::path& folder, MissingFolder missing) {
+    return std::make_unique<FolderObjects>(folder, missing);
 }
 
 } // namespace macadam

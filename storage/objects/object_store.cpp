@@ -12,7 +12,8 @@
 
 namespace macadam {
 
-std::unique_ptr<ObjectStore> open_object_store(const std::string& location, std::stop_token stop) {
+std::unique_ptr<ObjectStore>
+open_object_store(const std::string& location, std::stop_token stop, MissingFolder missing) {
     if (location.starts_with("s3://")) {
         return open_s3_objects(s3_settings_of(location), std::move(stop));
     }
@@ -21,7 +22,7 @@ std::unique_ptr<ObjectStore> open_object_store(const std::string& location, std:
                                      "PREFIX",
                                      in_quotes(location))};
     }
-    return open_folder_objects(location);
+    return open_folder_objects(location, missing);
 }
 
 std::string absolute_location(const std::string& location) {

@@ -39,14 +39,26 @@ public:
 
     /// Removes an object, if it is there.
     virtual void remove(std::string_view sha256) = 0;
+
+    /// Tests whether the store is where it was: a folder of another machine may not be mounted.
+    ///
+    /// \throws InputError  if it is not.
+    virtual void expect_in_place() const {}
 };
 
-/// Opens the store of `s3://BUCKET[/PREFIX]` or of a folder, which is made if it is missing.
+enum class MissingFolder {
+    make,  ///< for those who store
+    refuse ///< for those who fetch: the objects are elsewhere
+};
+
+/// Opens the store of `s3://BUCKET[/PREFIX]` or of a folder.
 ///
 /// \param stop  ends waiting for a service
-/// \throws InputError  for another kind of address, or without credentials for a bucket.
+/// \throws InputError  for another kind of address, a folder that is missing or was never stored
+///                     to, or without credentials for a bucket.
 std::unique_ptr<ObjectStore> open_object_store(const std::string& location,
-                                               std::stop_token stop = {});
+                                               std::stop_token stop = {},
+                                               MissingFolder missing = MissingFolder::make);
 
 /// Returns the location as workers started in other folders find it: a folder's absolute path.
 std::string absolute_location(const std::string& location);

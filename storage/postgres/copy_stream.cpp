@@ -16,8 +16,8 @@ namespace {
 constexpr std::string_view signature{"PGCOPY\n\377\r\n\0", 11};
 constexpr std::size_t header_size = 19; // signature, flags, length of the extension
 constexpr std::size_t send_at = 1 << 16;
-constexpr std::size_t longest_row = std::size_t{64} << 20; // far above any of ours
-constexpr std::size_t longest_text = std::size_t{1} << 30; // of a field, by PostgreSQL
+constexpr std::size_t longest_row = std::size_t{64} << 20;  // far above any of ours
+constexpr std::size_t longest_field = std::size_t{1} << 30; // by PostgreSQL
 
 struct Clear {
     void operator()(PGresult* result) const { PQclear(result); }
@@ -90,17 +90,22 @@ void CopyWriter::put(bool value) {
     buffer_.push_back(value ? 1 : 0);
 }
 
-void CopyWriter::put(std::string_view text) {
-    if (text.size() >= longest_text) {
-        throw InputError{fmt::format(
-            "{}: a value of {} bytes is too long for PostgreSQL", server_->address(), text.size())};
+void CopyWriter::put_field(std::string_view bytes) {
+    if (bytes.size() >= longest_field) {
+        throw InputError{fmt::format("{}: a value of {} bytes is too long for PostgreSQL",
+                                     server_->address(),
+                                     bytes.size())};
     }
-    append_number(buffer_, static_cast<std::uint32_t>(text.size()));
-    buffer_ += text;
+    append_number(buffer_, static_cast<std::uint32_t>(bytes.size()));
+    buffer_ += bytes;
+}
+
+void CopyWriter::put(std::string_view text) {
+    put_field(server_text(text));
 }
 
 void CopyWriter::put(ServerBytes value) {
-    put(value.bytes);
+    put_field(value.bytes);
 }
 
 void CopyWriter::put(std::nullopt_t) {

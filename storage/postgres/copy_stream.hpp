@@ -38,7 +38,7 @@ public:
     void put(std::int64_t value);
     void put(double value);
     void put(bool value);
-    void put(std::string_view text);
+    void put(std::string_view text); ///< as server_text()
     void put(const std::string& text) { put(std::string_view{text}); }
     void put(const char* text) { put(std::string_view{text}); }
     void put(ServerBytes value);
@@ -58,6 +58,7 @@ public:
 
 private:
     void send();
+    void put_field(std::string_view bytes);
 
     ServerConnection* server_;
     std::string buffer_;

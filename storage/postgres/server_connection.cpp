@@ -1,7 +1,7 @@
 #include "storage/postgres/server_connection.hpp"
 
-#include "estimator/common/error.hpp"
 #include "estimator/common/exact_number.hpp"
+#include "estimator/common/utf8.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/text/text.hpp"
 
@@ -54,6 +54,13 @@ std::string_view advice_for(std::string_view state) {
     return "";
 }
 
+/// Tests for classes of SQLSTATE that tell nothing about what was asked. Source: PostgreSQL 15,
+/// appendix A.
+bool is_trouble(std::string_view state) {
+    return state.empty() || state.starts_with("08") || state.starts_with("53") ||
+           state.starts_with("57P") || state.starts_with("58");
+}
+
 void keep_warning(void* to, const PGresult* result) {
     auto& warnings = *static_cast<std::vector<std::string>*>(to);
     const char* const severity = PQresultErrorField(result, PG_DIAG_SEVERITY_NONLOCALIZED);
@@ -65,6 +72,17 @@ void keep_warning(void* to, const PGresult* result) {
 }
 
 } // namespace
+
+std::string server_text(std::string_view text) {
+    std::string plain;
+    plain.reserve(text.size());
+    while (!text.empty()) {
+        const auto length = text.front() == '\0' ? 0 : utf8_length(text);
+        plain += length > 0 ? text.substr(0, length) : std::string_view{"\xEF\xBF\xBD"};
+        text.remove_prefix(std::max(length, std::size_t{1}));
+    }
+    return plain;
+}
 
 void ServerConnection::Finish::operator()(pg_conn* connection) const {
     PQfinish(connection);
@@ -80,10 +98,11 @@ ServerConnection::ServerConnection(std::string address)
     constexpr int expand_dbname = 1;
     connection_.reset(PQconnectdbParams(keywords.data(), values.data(), expand_dbname));
     if (PQstatus(connection_.get()) != CONNECTION_OK) {
-        throw InputError{fmt::format("{}: cannot connect: {}; expected a running PostgreSQL server "
-                                     "that lets this role in",
-                                     address_,
-                                     shown(PQerrorMessage(connection_.get())))};
+        throw ServerTrouble{
+            fmt::format("{}: cannot connect: {}; expected a running PostgreSQL server "
+                        "that lets this role in",
+                        address_,
+                        shown(PQerrorMessage(connection_.get())))};
     }
     PQsetNoticeReceiver(connection_.get(), keep_warning, warnings_.get());
     if (const int version = PQserverVersion(connection_.get()); version < oldest_server) {
@@ -106,12 +125,17 @@ void ServerConnection::fail(std::string_view doing, const pg_result* result) con
         result != nullptr ? PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY) : nullptr;
     const char* const state =
         result != nullptr ? PQresultErrorField(result, PG_DIAG_SQLSTATE) : nullptr;
-    throw InputError{
+    const std::string_view known_state{state != nullptr ? state : ""};
+    const auto message =
         fmt::format("{}: {}: {}{}",
                     address_,
                     doing,
                     shown(words != nullptr ? words : PQerrorMessage(connection_.get())),
-                    advice_for(state != nullptr ? state : ""))};
+                    advice_for(known_state));
+    if (is_trouble(known_state)) {
+        throw ServerTrouble{message};
+    }
+    throw InputError{message};
 }
 
 void ServerConnection::run(const std::string& sql) {
@@ -125,9 +149,11 @@ void ServerConnection::run(const std::string& sql) {
 std::vector<ServerRow>
 ServerConnection::rows(const std::string& sql,
                        const std::vector<std::optional<std::string>>& values) {
+    std::vector<std::string> plain(values.size());
     std::vector<const char*> texts;
-    for (const auto& value : values) {
-        texts.push_back(value ? value->c_str() : nullptr);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        plain[i] = server_text(values[i].value_or(""));
+        texts.push_back(values[i] ? plain[i].c_str() : nullptr);
     }
     const Result result{PQexecParams(connection_.get(),
                                      sql.c_str(),
@@ -197,10 +223,11 @@ void ServerConnection::commit() {
         throw InputError{fmt::format("{}: the server rolled back; nothing was written", address_)};
     }
     if (!warnings_->empty()) {
-        throw InputError{fmt::format("{}: written, but in doubt until its standby has it: {}; run "
-                                     "the command again",
-                                     address_,
-                                     warnings_->front())};
+        throw ServerTrouble{
+            fmt::format("{}: written, but in doubt until its standby has it: {}; run "
+                        "the command again",
+                        address_,
+                        warnings_->front())};
     }
 }
 

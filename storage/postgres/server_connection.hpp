@@ -1,5 +1,7 @@
 #pragma once
 
+#include "estimator/common/error.hpp"
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,10 +17,19 @@ namespace macadam {
 /// Row of a result: `std::nullopt` is NULL.
 using ServerRow = std::vector<std::optional<std::string>>;
 
+/// Trouble of the server or the way to it, whatever it was asked: no connection, no room, an end by
+/// its operator, a standby that is missed.
+struct ServerTrouble : InputError {
+    using InputError::InputError;
+};
+
+/// Text as a server takes it: NUL and bytes that are not UTF-8 become U+FFFD.
+std::string server_text(std::string_view text);
+
 /// Connection to a PostgreSQL server. What the server says is shown shortened and with its control
 /// characters escaped.
 ///
-/// \throws InputError  "ADDRESS: cause" from every call that fails.
+/// \throws InputError  "ADDRESS: cause" from every call that fails; ServerTrouble where it is that.
 class ServerConnection {
 public:
     /// Connects within 10 s unless the address or the environment say otherwise. Passwords come
@@ -36,7 +47,8 @@ public:
     /// Runs statements of our own, without parameters or rows.
     void run(const std::string& sql);
 
-    /// Runs one statement; values are parameters $1, $2, ..., never parts of the text.
+    /// Runs one statement; values are parameters $1, $2, ..., never parts of the text, and
+    /// pass through server_text().
     std::vector<ServerRow> rows(const std::string& sql,
                                 const std::vector<std::optional<std::string>>& values = {});
 

@@ -95,6 +95,12 @@ void PictureTiles::forget_others(const std::string& version) {
     for (auto& [first, square] : squares_) {
         square->use.reset();
     }
+    for (const auto& first : asked_) { // nobody draws them any more
+        auto& square = *squares_.at(first);
+        square.has_failed = true;
+        square.is_done = true;
+    }
+    changed_.notify_all();
     squares_.clear();
     asked_.clear();
     uses_.clear();

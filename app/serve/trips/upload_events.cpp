@@ -81,7 +81,7 @@ bool UploadEvents::tell(Database& uploads, Followed& followed) {
         return false;
     }
     const auto now = Clock::now();
-    constexpr auto silence = 15s; // after which a byte shows whether the client is there
+    constexpr auto silence = 3s; // after which a byte shows whether the client is there
     if (auto event = state_event(*upload); event != followed.last) {
         followed.stream->send(event);
         followed.last = std::move(event);

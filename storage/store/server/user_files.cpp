@@ -59,8 +59,11 @@ fs::path server_key_file(const std::string& key_id) {
 fs::path network_image_file(const std::string& rows) {
     expect_plain(rows, "network_rows");
     const auto folder = user_folder("XDG_CACHE_HOME", ".cache");
-    return folder.value_or(fs::temp_directory_path()) / "macadam" / "networks" /
-           fmt::format("{}-{}.gpkg", rows, store_version);
+    if (!folder) { // others could put a file into a shared folder first
+        throw InputError{"neither HOME nor XDG_CACHE_HOME is set, expected the folder in which "
+                         "macadam/networks/ keeps the roads of databases on servers"};
+    }
+    return *folder / "macadam" / "networks" / fmt::format("{}-{}.gpkg", rows, store_version);
 }
 
 } // namespace macadam

@@ -15,10 +15,10 @@ namespace macadam {
 std::filesystem::path server_key_file(const std::string& key_id);
 
 /// File in which the roads of a database are kept: $XDG_CACHE_HOME/macadam/networks/NAME.gpkg, else
-/// in ~/.cache, else in the folder of temporary files.
+/// in ~/.cache.
 ///
 /// \param rows  name of the network's rows, as the server states it
-/// \throws InputError  if it is none.
+/// \throws InputError  if it is none, or there is no home folder.
 std::filesystem::path network_image_file(const std::string& rows);
 
 } // namespace macadam

@@ -225,6 +225,40 @@ TEST_F(JobQueue, DoesNotCountAttemptsThatWereNotMade) {
     EXPECT_EQ(again[0].attempts, 1);
 }
 
+TEST_F(JobQueue, TakesBackAllJobsOfAWorkerWhoseConnectionBroke) {
+    submit_logs(queue(), logs(3));
+    EXPECT_THAT(take_jobs(queue(), anna, 2, false), SizeIs(2));
+    EXPECT_THAT(take_jobs(queue(), ben, 1, false), SizeIs(1));
+    renew_worker(queue(), anna, 0); // the heartbeat goes on
+    EXPECT_THAT(take_jobs(queue(), ben, 10, false), IsEmpty());
+    put_back_all(queue(), anna);
+    const auto again = take_jobs(queue(), anna, 10, false);
+    ASSERT_THAT(again, SizeIs(2)); // ben keeps his
+    EXPECT_EQ(again[0].attempts, 1);
+}
+
+TEST_F(JobQueue, TakesReasonsThatAreNoText) {
+    submit_logs(queue(), logs(1));
+    const auto taken = take_jobs(queue(), anna, 1, false);
+    ASSERT_THAT(taken, SizeIs(1));
+    fail_job(queue(), anna, taken[0], std::string{"caf\xe9 \0 ol\xc3\xa9", 11});
+    EXPECT_EQ(reason_of(taken[0]), "caf\xef\xbf\xbd \xef\xbf\xbd ol\xc3\xa9");
+}
+
+TEST_F(JobQueue, TellsTroubleOfTheServerFromRefusals) {
+    EXPECT_THROW(queue().run("SELECT 1 / 0"), InputError);
+    try {
+        queue().run("SELECT 1 / 0");
+    } catch (const ServerTrouble&) {
+        ADD_FAILURE() << "a refusal";
+    } catch (const InputError&) {
+    }
+    ServerConnection{address_}.run(
+        "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid <> pg_backend_pid()"
+        " AND datname = current_database()");
+    EXPECT_THROW(queue().run("SELECT 1"), ServerTrouble);
+}
+
 TEST_F(JobQueue, LetsRetriesWaitBehindNewLogsButNotForEver) {
     submit_logs(queue(), logs(1));
     fail_job(queue(), anna, take_jobs(queue(), anna, 1, false).at(0), "busy");

@@ -99,6 +99,25 @@ TEST(FolderObjects, AreForTheirOwnerAloneUnlessTheFolderSaysOtherwise) {
     EXPECT_EQ(mode_of(folder / "shared" / path), 0640U);
 }
 
+TEST(FolderObjects, AreNotSoughtWhereNothingIsMounted) {
+    const auto folder = fresh_folder() / "logs";
+    const auto open = [&] { return open_object_store(folder.string(), {}, MissingFolder::refuse); };
+    EXPECT_THAT(refusal_of(open),
+                AllOf(HasSubstr("is no folder here"), HasSubstr("is it mounted?")));
+    EXPECT_FALSE(fs::exists(folder));
+    fs::create_directory(folder); // as a mount point
+    EXPECT_THAT(refusal_of(open), AllOf(HasSubstr("has no .macadam"), HasSubstr("is it mounted?")));
+    open_object_store(folder.string());
+    const auto store = open();
+    store->remove(object_of("a trip").sha256); // gone before: no matter
+    fs::remove_all(folder);
+    fs::create_directory(folder); // unmounted
+    const auto refusal = HasSubstr("is it mounted?");
+    EXPECT_THAT(refusal_of([&] { store->expect_in_place(); }), refusal);
+    EXPECT_THAT(refusal_of([&] { store->remove(object_of("a trip").sha256); }), refusal);
+    EXPECT_THAT(refusal_of([&] { store->fetch(object_of("a trip"), folder / "out"); }), refusal);
+}
+
 TEST(FolderObjects, AreCheckedByTheirHash) {
     const auto folder = fresh_folder();
     const auto store = open_object_store((folder / "logs").string());
@@ -145,6 +164,14 @@ TEST(S3Objects, ComeBackAsTheyWere) {
     expect_round_trip(*store, folder, "");
     expect_round_trip(*store, folder, "a,b\n1,2\n");
     expect_round_trip(*store, folder, long_log());
+}
+
+TEST(S3Objects, OfThisMachineGoThroughNoProxy) {
+    const auto folder = fresh_folder();
+    const S3Service service{folder};
+    ::setenv("http_proxy", "http://127.0.0.1:9", 1); // NOLINT(concurrency-mt-unsafe)
+    expect_round_trip(*open_object_store("s3://roads"), folder, "a trip");
+    ::unsetenv("http_proxy"); // NOLINT(concurrency-mt-unsafe)
 }
 
 TEST(S3Objects, AreTriedAgainWhileTheServiceIsBusy) {
