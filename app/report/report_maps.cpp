@@ -12,12 +12,16 @@ namespace {
 /// Sizes of the pictures.
 struct PictureSizes {
     int map_width_px;
+    double map_px_per_inch; ///< as the page shows it: so large are its letters
     int stretch_width_px;
-    double stretch_shape; ///< height / width
+    double stretch_px_per_inch; ///< likewise
+    double stretch_shape;       ///< height / width
 };
-constexpr PictureSizes on_screen{1400, 480, 0.75};
-constexpr PictureSizes on_paper{2100, 1040, 0.6}; // 300 dpi on A4, two by two sections on a page
-constexpr double min_map_shape = 0.625;           // height / width
+// A screen has 96 px per inch and shows maps at half their size, sections at two thirds; sheets of
+// A4 have two by two sections.
+constexpr PictureSizes on_screen{1400, 192, 480, 144, 0.75};
+constexpr PictureSizes on_paper{2100, 300, 1040, 300, 0.6};
+constexpr double min_map_shape = 0.625; // height / width
 constexpr double max_map_shape = 0.893;
 
 // A picture of maximum height shows at least as much as lower ones of the same box.
@@ -29,15 +33,25 @@ const PictureSizes& sizes_for(PictureUse use) {
     return use == PictureUse::paper ? on_paper : on_screen;
 }
 
-/// Returns the height that a box needs at the map's width, within the limits of a page.
-int map_height_px(const GeoBox& box, int width_px) {
+/// Returns a map's size, whose height is what a box needs within the limits of a page.
+PictureSize map_size(const GeoBox& box, PictureUse use) {
     const double middle_deg = (box.south_deg + box.north_deg) / 2;
     const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
     const double height_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
     const double shape =
         std::clamp(height_m / std::max(width_m, 1.0), min_map_shape, max_map_shape);
-    return static_cast<int>(width_px * shape);
+    const auto& sizes = sizes_for(use);
+    return {.width_px = sizes.map_width_px,
+            .height_px = static_cast<int>(sizes.map_width_px * shape),
+            .px_per_inch = sizes.map_px_per_inch};
+}
+
+PictureSize stretch_size(PictureUse use) {
+    const auto& sizes = sizes_for(use);
+    return {.width_px = sizes.stretch_width_px,
+            .height_px = static_cast<int>(sizes.stretch_width_px * sizes.stretch_shape),
+            .px_per_inch = sizes.stretch_px_per_inch};
 }
 
 GeoBox box_around(const WorstSection& stretch) {
@@ -77,10 +91,8 @@ ReportPictures::ReportPictures(const MapStyle& style,
                                std::size_t count)
     : style_{unadorned(style)}, use_{use}, progress_{progress}, count_{count} {}
 
-ReportPicture ReportPictures::draw(const MapScene& scene,
-                                   int width_px,
-                                   int height_px,
-                                   const ClassTable* classes) {
+ReportPicture
+ReportPictures::draw(const MapScene& scene, const PictureSize& size, const ClassTable* classes) {
     if (progress_.stop.stop_requested()) {
         throw InputError{"stopped before the report was complete"};
     }
@@ -88,26 +100,24 @@ ReportPicture ReportPictures::draw(const MapScene& scene,
     const auto png = [&](MapStyle::Theme theme) {
         auto style = in_theme(style_, theme);
         style.classes = classes != nullptr ? classes : style.classes;
-        return encode_png(render_map(scene, style, width_px, height_px));
+        return encode_png(render_map(scene, style, size));
     };
     using enum MapStyle::Theme;
-    return use_ == PictureUse::paper ? ReportPicture{png(print), {}, width_px, height_px}
-                                     : ReportPicture{png(light), png(dark), width_px, height_px};
+    return use_ == PictureUse::paper
+               ? ReportPicture{png(print), {}, size.width_px, size.height_px}
+               : ReportPicture{png(light), png(dark), size.width_px, size.height_px};
 }
 
 ReportPicture ReportPictures::map(const MapScene& scene, const ClassTable* classes) {
-    const int width_px = sizes_for(use_).map_width_px;
-    return draw(scene, width_px, map_height_px(scene.box, width_px), classes);
+    return draw(scene, map_size(scene.box, use_), classes);
 }
 
 ReportPicture ReportPictures::stretch(const MapScene& scene, const ClassTable* classes) {
-    const auto& [map_width_px, width_px, shape] = sizes_for(use_);
-    return draw(scene, width_px, static_cast<int>(width_px * shape), classes);
+    return draw(scene, stretch_size(use_), classes);
 }
 
 double ReportPictures::map_width_m(const MapScene& scene) const {
-    const int width_px = sizes_for(use_).map_width_px;
-    return MapPlan{scene, style_, {width_px, map_height_px(scene.box, width_px)}}.ground_width_m();
+    return MapPlan{scene, style_, map_size(scene.box, use_)}.ground_width_m();
 }
 
 MapScene whole_scene(const StoreReader& store, const MapStyle& style, const SegmentFilter& filter) {

@@ -37,8 +37,7 @@ public:
     double map_width_m(const MapScene& scene) const;
 
 private:
-    ReportPicture
-    draw(const MapScene& scene, int width_px, int height_px, const ClassTable* classes);
+    ReportPicture draw(const MapScene& scene, const PictureSize& size, const ClassTable* classes);
 
     MapStyle style_;
     PictureUse use_;

@@ -279,10 +279,10 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
     });
 }
 
-Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
-    MapPlan plan{scene, style, {width_px, height_px}};
-    Image image{width_px, height_px, {}};
-    image.rgb.reserve(std::size_t(width_px) * std::size_t(height_px) * 3);
+Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
+    MapPlan plan{scene, style, size};
+    Image image{size.width_px, size.height_px, {}};
+    image.rgb.reserve(std::size_t(size.width_px) * std::size_t(size.height_px) * 3);
     plan.draw([&](std::span<const std::uint8_t> rgb) {
         image.rgb.insert(image.rgb.end(), rgb.begin(), rgb.end());
     });

@@ -88,6 +88,6 @@ private:
 };
 
 /// Plans and draws a scene with its lines.
-Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size);
 
 } // namespace macadam

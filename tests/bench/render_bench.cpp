@@ -42,7 +42,7 @@ MapScene town_scene(int side) {
 void draw_in_macadam(benchmark::State& state) {
     const auto scene = town_scene(static_cast<int>(state.range(0)));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(render_map(scene, {.legend = false}, size_px, size_px));
+        benchmark::DoNotOptimize(render_map(scene, {.legend = false}, {size_px, size_px}));
     }
     state.counters["lines"] = static_cast<double>(scene.lines.size());
 }
@@ -86,7 +86,7 @@ void draw_in_cairo(benchmark::State& state) {
 }
 
 void encode_picture(benchmark::State& state) {
-    const auto image = render_map(town_scene(50), {.legend = false}, size_px, size_px);
+    const auto image = render_map(town_scene(50), {.legend = false}, {size_px, size_px});
     for (auto _ : state) {
         benchmark::DoNotOptimize(encode_png(image));
     }

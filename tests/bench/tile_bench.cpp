@@ -223,7 +223,7 @@ void measure_map(const fs::path& file) {
     request.filter.box = box;
     request.style.classes = class_table("fhwa");
     const double query_ms = cost_ms([&] { scene = load_map(store, request).scene(); });
-    const double draw_ms = cost_ms([&] { image = render_map(scene, {}, 4096, 4096); });
+    const double draw_ms = cost_ms([&] { image = render_map(scene, {}, {4096, 4096}); });
     const double encode_ms = cost_ms([&] { encode_png(image); });
     fmt::print("A map of 4096 x 4096 px with {} segments: {:.2f} s to draw and {:.2f} s for the "
                "PNG (CPU); reading them from the store {:.2f} s.\n",

@@ -85,9 +85,9 @@ const MapStyle plain{.labels = false, .legend = false, .base_opacity = 1};
 
 TEST(BaseMap, LiesUnderTheRoadsPixelByPixel) {
     auto scene = bare_crossing();
-    const auto without = render_map(scene, plain, 500, 400);
+    const auto without = render_map(scene, plain, {500, 400});
     scene.base = painted(patterned);
-    const auto with = render_map(scene, plain, 500, 400);
+    const auto with = render_map(scene, plain, {500, 400});
     const auto ground = colour_of(palette(plain).ground);
     int shown = 0;
     int road = 0;
@@ -113,7 +113,7 @@ TEST(BaseMap, IsMixedWithTheGround) {
     scene.base = painted([](int x, int) { return Pixel{200, 100, 0, x < 250 ? 255 : 51}; });
     auto style = plain;
     style.base_opacity = 0.25;
-    const auto image = render_map(scene, style, 500, 400);
+    const auto image = render_map(scene, style, {500, 400});
     // Of 0xf4f4f2 and 200, 100, 0: a quarter of the latter, and a quarter of a fifth.
     EXPECT_EQ(at(image, 20, 30), (Pixel{233, 208, 182, 255}));
     EXPECT_EQ(at(image, 400, 30), (Pixel{242, 237, 230, 255}));
@@ -132,10 +132,10 @@ TEST(BaseMap, LeavesThePictureAsItIsWhereNothingOfItIsSeen) {
     auto scene = crossing();
     scene.title = "Town";
     // Names have wider halos on a base map.
-    const auto without = render_map(scene, {.labels = false}, 500, 400);
+    const auto without = render_map(scene, {.labels = false}, {500, 400});
     const auto with = [&](const std::shared_ptr<BaseMap>& base, double opacity) {
         scene.base = base;
-        return render_map(scene, {.labels = false, .base_opacity = opacity}, 500, 400);
+        return render_map(scene, {.labels = false, .base_opacity = opacity}, {500, 400});
     };
     // Edges in the ground's own colour are blended with it, which rounds.
     EXPECT_LE(max_apart(with(painted(patterned), 0), without), 1);
@@ -147,9 +147,9 @@ TEST(BaseMap, StaysOnTheMapAndBelowTheLegend) {
     auto scene = crossing();
     scene.title = "Town";
     scene.attribution = "© mappers";
-    const auto without = render_map(scene, {}, 700, 500);
+    const auto without = render_map(scene, {}, {700, 500});
     scene.base = painted([](int, int) { return Pixel{255, 0, 255, 255}; });
-    const auto with = render_map(scene, {.base_opacity = 1}, 700, 500);
+    const auto with = render_map(scene, {.base_opacity = 1}, {700, 500});
     const auto page = colour_of(palette(MapStyle{}).page);
     int kept = 0;
     for (int y = 0; y < 500; ++y) {
@@ -167,7 +167,7 @@ TEST(BaseMap, LetsQuietRoadsBeSeenByAnEdge) {
     auto scene = bare_crossing();
     const auto grey = palette(plain).unmeasured;
     scene.base = painted([=](int, int) { return colour_of(grey); }); // the road's own colour
-    const auto image = render_map(scene, plain, 500, 400);
+    const auto image = render_map(scene, plain, {500, 400});
     std::string across; // far from the measured road: g for grey, e for an edge that is lighter
     for (int x = 60; x < 200; ++x) {
         const char kind = at(image, x, 60)[0] > int(grey >> 16 & 255U) + 20 ? 'e' : 'g';
@@ -190,7 +190,7 @@ TEST(BaseMap, IsAskedForOnThePlaneOfThePicture) {
                                                            asked = plane;
                                                            return base->laid_on(plane);
                                                        }});
-        render_map(scene, plain, 500, 400);
+        render_map(scene, plain, {500, 400});
         const auto place = MapPlan(scene, plain, {500, 400}).place();
         ASSERT_TRUE(asked);
         EXPECT_EQ(asked->wkt, scene.projection ? scene.projection->wkt : "");
@@ -299,7 +299,7 @@ TEST_F(BaseMapOnPaper, LooksAsInThePicture) {
     page.rgb.assign(std::istreambuf_iterator<char>{in}, {});
     MapStyle style;
     style.labels = false; // the names of roads are not drawn on paper
-    const auto picture = render_map(scene, style, 1240, 877);
+    const auto picture = render_map(scene, style, {1240, 877});
     ASSERT_EQ(page.rgb.size(), picture.rgb.size());
     double sum = 0;
     for (std::size_t i = 0; i < page.rgb.size(); ++i) {

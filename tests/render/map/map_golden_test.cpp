@@ -125,7 +125,7 @@ Image drawn(const Case& of) {
     if (of.crs != nullptr) {
         scene.projection = plane_projection(of.crs);
     }
-    return render_map(scene, style, of.width_px, of.height_px);
+    return render_map(scene, style, {of.width_px, of.height_px});
 }
 
 std::string text_libraries() {

@@ -144,7 +144,7 @@ TEST(MapPlan, DrawsLinesThatItGetsLaterLikeThoseOfItsScene) {
         MapPlan plan{scene, {}, size};
         plan.set_roads(lines);
         scene.lines = lines;
-        EXPECT_TRUE(drawn(plan) == render_map(scene, {}, size.width_px, size.height_px).rgb);
+        EXPECT_TRUE(drawn(plan) == render_map(scene, {}, {size.width_px, size.height_px}).rgb);
     }
 }
 

@@ -96,7 +96,7 @@ MapScene grid(int streets, double half_side_m) {
 } // namespace
 
 TEST(Map, DrivesOnTheRight) {
-    const auto image = render_map(both_ways(0, 2, 400), {}, 512, 512);
+    const auto image = render_map(both_ways(0, 2, 400), {}, {512, 512});
     const auto eastbound = rows_of(image, good);
     const auto westbound = rows_of(image, poor);
     ASSERT_FALSE(eastbound.empty());
@@ -105,7 +105,7 @@ TEST(Map, DrivesOnTheRight) {
 }
 
 TEST(Map, DrivesOnTheLeftWhereTheyDo) {
-    const auto image = render_map(both_ways(0, 2, 400), {.left_hand_traffic = true}, 512, 512);
+    const auto image = render_map(both_ways(0, 2, 400), {.left_hand_traffic = true}, {512, 512});
     const auto eastbound = rows_of(image, good);
     const auto westbound = rows_of(image, poor);
     ASSERT_FALSE(eastbound.empty());
@@ -115,7 +115,7 @@ TEST(Map, DrivesOnTheLeftWhereTheyDo) {
 
 TEST(Map, ShowsTheWorseDirectionWhereThereIsNoRoomForBoth) {
     for (const auto& [east, west] : {std::pair{0, 2}, {2, 0}}) {
-        const auto image = render_map(both_ways(east, west, 40000), {}, 512, 512);
+        const auto image = render_map(both_ways(east, west, 40000), {}, {512, 512});
         // The line is too thin for its pure colour; red and blue tell the classes apart.
         const auto [bluest, reddest] = range_of_red_over_blue(image);
         EXPECT_GT(reddest, 80);
@@ -124,7 +124,7 @@ TEST(Map, ShowsTheWorseDirectionWhereThereIsNoRoomForBoth) {
 }
 
 TEST(Map, HasAnEntryInItsLegendForEveryClass) {
-    const auto image = render_map(scene({road({{-400, 0}, {400, 0}}, 0)}, 400), {}, 512, 512);
+    const auto image = render_map(scene({road({{-400, 0}, {400, 0}}, 0)}, 400), {}, {512, 512});
     const PixelBox corner{256, 300, 512, 480};
     const auto colours = ramp_colours("rdylbu", 3);
     ASSERT_EQ(colours.size(), 3U);
@@ -135,7 +135,7 @@ TEST(Map, HasAnEntryInItsLegendForEveryClass) {
 
 TEST(Map, HasNoLegendWhereThePageHasIt) {
     const auto image =
-        render_map(scene({road({{-400, 0}, {400, 0}}, 0)}, 400), {.legend = false}, 512, 512);
+        render_map(scene({road({{-400, 0}, {400, 0}}, 0)}, 400), {.legend = false}, {512, 512});
     EXPECT_EQ(count_of(image, {0, 0, 512, 512}, poor), 0U);
     EXPECT_GT(count_of(image, {0, 0, 512, 512}, good), 20U);
 }
@@ -144,7 +144,7 @@ TEST(Map, IsAllMapWhereThePageHasTheWords) {
     auto bare = scene({road({{0, 400}, {0, -400}}, 0)}, 400);
     bare.title.clear();
     bare.scale_bar = false;
-    const auto image = render_map(bare, {.legend = false}, 512, 384);
+    const auto image = render_map(bare, {.legend = false}, {512, 384});
     const auto colours = palette(MapStyle::Theme::light);
     EXPECT_EQ(count_of(image, {0, 0, 512, 384}, colours.page), 0U);
     EXPECT_EQ(count_of(image, {0, 0, 512, 384}, colours.ink), 0U);
@@ -250,7 +250,7 @@ TEST(Map, ExplainsUnmeasuredAndUncertainRoadsWhereThereAreAny) {
 TEST(Map, DrawsRoadsWithFewPassesInGreyInsideACasing) {
     auto line = road({{-400, 0}, {400, 0}}, 2);
     line.few_passes = true;
-    const auto image = render_map(scene({line}, 400), {.legend = false}, 512, 512);
+    const auto image = render_map(scene({line}, 400), {.legend = false}, {512, 512});
     const auto colours = palette(MapStyle::Theme::light);
     EXPECT_EQ(count_of(image, {0, 0, 512, 512}, poor), 0U);
     EXPECT_GT(rows_of(image, colours.few_passes).size(), 1U);
@@ -265,7 +265,7 @@ TEST(Map, DrawsRoadsWithFewPassesInGreyInsideACasing) {
 TEST(Map, ShowsAClassBeforeTheGreyOfFewPassesWhereThereIsNoRoomForBoth) {
     auto two = both_ways(0, 2, 40000);
     two.lines[1].few_passes = true;
-    const auto image = render_map(two, {.legend = false}, 512, 512);
+    const auto image = render_map(two, {.legend = false}, {512, 512});
     const auto [bluest, reddest] = range_of_red_over_blue(image);
     EXPECT_LT(bluest, -40); // good is blue
     EXPECT_LT(reddest, 40);
@@ -293,8 +293,8 @@ TEST(Map, SpeaksTheWordsOfItsStyle) {
 
 TEST(Map, DrawsLinesAsWideAsItsStyleWantsThem) {
     const auto sheet = scene({road({{-400, 0}, {400, 0}}, 2)}, 400);
-    const auto usual = render_map(sheet, {.legend = false}, 512, 512);
-    const auto wide = render_map(sheet, {.lines = {.width = 2}, .legend = false}, 512, 512);
+    const auto usual = render_map(sheet, {.legend = false}, {512, 512});
+    const auto wide = render_map(sheet, {.lines = {.width = 2}, .legend = false}, {512, 512});
     EXPECT_NEAR(double(rows_of(wide, poor).size()), 2.0 * double(rows_of(usual, poor).size()), 2);
 }
 
@@ -304,18 +304,18 @@ TEST(Map, WritesTheNamesOfItsRoadsUnlessTold) {
     const auto sheet = scene({line}, 400);
     const auto ink = palette(MapStyle::Theme::light).ink;
     const PixelBox above{0, 400, 1024, 600};
-    EXPECT_GT(count_of(render_map(sheet, {.legend = false}, 1024, 1024), above, ink), 0U);
+    EXPECT_GT(count_of(render_map(sheet, {.legend = false}, {1024, 1024}), above, ink), 0U);
     EXPECT_EQ(
-        count_of(render_map(sheet, {.labels = false, .legend = false}, 1024, 1024), above, ink),
+        count_of(render_map(sheet, {.labels = false, .legend = false}, {1024, 1024}), above, ink),
         0U);
 }
 
 TEST(Map, IsTheSameByteForByteEachTime) {
     const auto city = grid(9, 2000);
-    const auto once = render_map(city, {}, 700, 400).rgb;
+    const auto once = render_map(city, {}, {700, 400}).rgb;
     for (const auto* threads : {"0", "1", "2"}) {
         setenv("LP_NUM_THREADS", threads, 1); // of OSMesa's rasteriser
-        EXPECT_TRUE(render_map(city, {}, 700, 400).rgb == once) << threads;
+        EXPECT_TRUE(render_map(city, {}, {700, 400}).rgb == once) << threads;
     }
     unsetenv("LP_NUM_THREADS");
 }
@@ -325,44 +325,56 @@ TEST(Map, DrawsRoadsWithoutALength) {
     const auto twice = road({{0, 0}, {0, 0}}, 2);
     auto lost = road({{0, 0}, {10, 0}}, 2);
     lost.line[1].lat_deg = std::numeric_limits<double>::quiet_NaN();
-    const auto bare = render_map(scene({}, 400), {}, 300, 300).rgb;
-    EXPECT_TRUE(render_map(scene({road({}, 2), point, twice, lost}, 400), {}, 300, 300).rgb ==
+    const auto bare = render_map(scene({}, 400), {}, {300, 300}).rgb;
+    EXPECT_TRUE(render_map(scene({road({}, 2), point, twice, lost}, 400), {}, {300, 300}).rgb ==
                 bare);
 }
 
 TEST(Map, IsDrawnInEveryThemeOnItsOwnGround) {
     for (const auto theme :
          {MapStyle::Theme::light, MapStyle::Theme::dark, MapStyle::Theme::print}) {
-        const auto image = render_map(scene({}, 400), {.theme = theme}, 300, 300);
+        const auto image = render_map(scene({}, 400), {.theme = theme}, {300, 300});
         EXPECT_EQ(pixel(image, 10, 150), palette(theme).ground);
     }
 }
 
 TEST(Map, RefusesPicturesThatAreTooSmallOrTooLarge) {
-    EXPECT_THAT([] { render_map(scene({}, 400), {}, 0, 512); },
-                ::testing::ThrowsMessage<InputError>(
-                    "picture size '0x512', expected sides of 256 to 32768 px"));
-    EXPECT_THAT([] { render_map(scene({}, 400), {}, 512, 32769); },
-                ::testing::ThrowsMessage<InputError>(
-                    "picture size '512x32769', expected sides of 256 to 32768 px"));
+    EXPECT_THAT(
+        [] {
+            render_map(scene({}, 400), {}, {0, 512});
+        },
+        ::testing::ThrowsMessage<InputError>(
+            "picture size '0x512', expected sides of 256 to 32768 px"));
+    EXPECT_THAT(
+        [] {
+            render_map(scene({}, 400), {}, {512, 32769});
+        },
+        ::testing::ThrowsMessage<InputError>(
+            "picture size '512x32769', expected sides of 256 to 32768 px"));
 }
 
 TEST(Map, RefusesAnEmptyBox) {
-    EXPECT_THAT([] { render_map({}, {}, 512, 512); },
-                ::testing::ThrowsMessage<InputError>(
-                    "the box of the map is empty, expected west <= east and south <= north"));
+    EXPECT_THAT(
+        [] {
+            render_map({}, {}, {512, 512});
+        },
+        ::testing::ThrowsMessage<InputError>(
+            "the box of the map is empty, expected west <= east and south <= north"));
 }
 
 TEST(Map, RefusesAnUnknownRamp) {
-    EXPECT_THAT([] { render_map(scene({}, 400), {.ramp = "jet"}, 512, 512); },
-                ::testing::ThrowsMessage<InputError>(
-                    "unknown colour ramp 'jet', expected one of rdylbu, cividis, viridis"));
+    EXPECT_THAT(
+        [] {
+            render_map(scene({}, 400), {.ramp = "jet"}, {512, 512});
+        },
+        ::testing::ThrowsMessage<InputError>(
+            "unknown colour ramp 'jet', expected one of rdylbu, cividis, viridis"));
 }
 
 TEST(Map, RefusesAClassThatIsNotInTheTable) {
     EXPECT_THAT(
         [] {
-            render_map(scene({road({{0, 0}, {9, 9}}, 3)}, 400), {}, 512, 512);
+            render_map(scene({road({{0, 0}, {9, 9}}, 3)}, 400), {}, {512, 512});
         },
         ::testing::ThrowsMessage<InputError>(
             "a line of class '3', expected -1 to 2 as in table 'fhwa'"));

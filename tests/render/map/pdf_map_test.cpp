@@ -111,7 +111,7 @@ TEST(PdfMap, LooksLikeThePicture) {
          {MapStyle::Theme::light, MapStyle::Theme::dark, MapStyle::Theme::print}) {
         const MapStyle style{.theme = theme};
         const auto page = drawn_by_poppler(folder, pdf_in(folder, crossing(), style));
-        const auto picture = render_map(crossing(), style, 1754, 1240);
+        const auto picture = render_map(crossing(), style, {1754, 1240});
         ASSERT_EQ(page.width, 1754);
         ASSERT_EQ(page.height, 1240);
         const PixelBox whole{0, 0, 1754, 1240};
@@ -210,8 +210,8 @@ TEST(PdfMap, HasNamesWhereThePictureHasThem) {
     across.line = {{48.0002, 16.0002}, {48.0065, 16.0098}};
     across.rank = 0;
     scene.lines.push_back(across);
-    const auto picture = render_map(scene, {}, 1754, 1240);
-    const auto bare_picture = render_map(scene, {.labels = false}, 1754, 1240);
+    const auto picture = render_map(scene, {}, {1754, 1240});
+    const auto bare_picture = render_map(scene, {.labels = false}, {1754, 1240});
     const PixelBox map{0, 130, 1754, 1000}; // without title and legend
     const auto with = drawn_by_poppler(folder, pdf_in(folder, scene, {}));
     const auto without = drawn_by_poppler(folder, pdf_in(folder, scene, {.labels = false}));

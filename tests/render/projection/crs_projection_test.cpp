@@ -208,7 +208,7 @@ TEST(ProjectedMap, HasARoadWhereItsPlaceSaysWithinHalfAPixel) {
         const auto plane = plane_projection(crs);
         scene.projection = crs == std::string{"EPSG:3857"} ? nullptr : plane;
         const auto place = MapPlan(scene, style, {800, 600}).place();
-        const auto spot = spot_in(render_map(scene, style, 800, 600));
+        const auto spot = spot_in(render_map(scene, style, {800, 600}));
         const auto expected = plane->to_plane(road).value();
         EXPECT_NEAR((expected.x - place.left) / place.per_px, spot.x, 0.5) << crs;
         EXPECT_NEAR((place.top - expected.y) / place.per_px, spot.y, 0.5) << crs;

@@ -109,7 +109,7 @@ TEST(PictureBands, AreThePictureDrawnWholeInEveryTheme) {
          {MapStyle::Theme::light, MapStyle::Theme::dark, MapStyle::Theme::print}) {
         const MapStyle style{.theme = theme};
         const auto whole = drawn(scene, style, {700, 520, 520});
-        EXPECT_TRUE(render_map(scene, style, 700, 520).rgb == whole);
+        EXPECT_TRUE(render_map(scene, style, {700, 520}).rgb == whole);
         for (const int band_px : {23, 64, 300, 519}) {
             EXPECT_TRUE(drawn(scene, style, {700, 520, band_px}) == whole)
                 << band_px << " rows, theme " << int(theme);
