@@ -10,10 +10,12 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace macadam::testing {
@@ -123,6 +125,49 @@ TEST(Workers, AreRefusedWithWords) {
     const auto nowhere = run_macadam({"submit", world.address, world.folder.string()});
     EXPECT_EQ(nowhere.exit_status, 2);
     EXPECT_THAT(nowhere.err, HasSubstr("--objects is missing"));
+}
+
+TEST(Workers, TakeLogsWhoseNamesAreNoText) {
+    WorkerWorld world;
+    world.make_trips(2);
+    const auto file = world.trips / "00001.trip.csv";
+    auto log = read_file(file);
+    const auto name = log.find("trip 00001");
+    ASSERT_NE(name, std::string::npos);
+    log[name + 4] = '\xe9'; // Latin-1
+    write_file(file, log);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    const auto worker = run_macadam(world.worker_words());
+    EXPECT_EQ(worker.exit_status, 0) << worker.err;
+    EXPECT_EQ(nlohmann::json::parse(world.status()).at("logs").at("imported"), 2);
+    EXPECT_EQ(ServerConnection{world.address}.number("SELECT count(*) FROM macadam.trip"), 2);
+}
+
+TEST(Workers, GoOnWhereAllTheirConnectionsBroke) {
+    WorkerWorld world;
+    constexpr std::size_t trips = 20;
+    world.make_trips(trips);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    auto words = world.worker_words();
+    std::erase(words, "--once");
+    words.back() = "--json";
+    PipedProgram worker{words};
+    EXPECT_TRUE(worker.line(60s).has_value()); // it works on the first batch
+    ServerConnection server{world.address};
+    server.run("SELECT pg_terminate_backend(pid) FROM pg_stat_activity"
+               " WHERE pid <> pg_backend_pid() AND datname = current_database()");
+    const auto count = [&](const std::string& what) {
+        return server.number("SELECT count(*) FROM macadam." + what);
+    };
+    const auto end = std::chrono::steady_clock::now() + 120s;
+    while ((count("job WHERE finished_at IS NULL") > 0 || count("chunk_dirty") > 0) &&
+           std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(100ms);
+    }
+    worker.signal(SIGTERM);
+    EXPECT_EQ(worker.wait().exit_status, 0);
+    EXPECT_EQ(count("job WHERE attempts <> 1"), 0); // it was no fault of the logs
+    expect_all_imported(world, trips);
 }
 
 TEST(Workers, EndAtOnceAndGiveTheirLogsBack) {
