@@ -14,8 +14,7 @@ inline constexpr Operand server_operand{
 inline constexpr Option objects_option{
     "--objects",
     "DIR|s3://...",
-    "Where logs are kept until they are imported: a folder that all machines see, or "
-    "s3://BUCKET/PREFIX.",
+    "Where logs wait: a folder that all machines see, or s3://BUCKET/PREFIX.",
     "as submitted last"};
 
 /// Returns the STORE operand of a command that works with servers only.

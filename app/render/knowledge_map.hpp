@@ -16,8 +16,7 @@ inline constexpr Option colour_by_option = one_of(
     in_group("appearance",
              {"--colour-by",
               "NAME",
-              "roughness; passes (coverage); age of the newest pass; or confidence (width of "
-              "the 90 % interval).",
+              "roughness; passes; age of the newest; or confidence (width of the 90 % interval).",
               "roughness"}));
 
 /// Parses --colour-by; `std::nullopt`: roughness.

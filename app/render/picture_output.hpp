@@ -43,8 +43,7 @@ inline constexpr Option picture_size_option =
     in_group("page",
              {"--size",
               "WxH",
-              "Size: pixels (1600x1200), millimetres (420x594mm) or a paper size (A2). Lines, "
-              "letters and detail follow the map's scale on paper.",
+              "Pixels (1600x1200), mm (420x594mm) or a paper (A2); detail follows the scale.",
               default_picture_size});
 inline constexpr Option dpi_option = in_group(
     "page",

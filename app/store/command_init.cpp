@@ -362,8 +362,7 @@ void run_init(const Arguments& arguments, const Console& console) {
 
 constexpr std::array operands{Operand{
     "STORE",
-    "The road database to create: a new .gpkg file, or postgresql://... of a server's database "
-    "without one; with --update an existing one."}};
+    "The road database: a new .gpkg file or postgresql://...; with --update an existing one."}};
 
 constexpr std::array options{
     Option{"--network",
@@ -410,8 +409,7 @@ constexpr std::array options{
         "--attribution", "TEXT", "Copyright notice shown on maps.", "OpenStreetMap for OSM files"},
     Option{"--no-background",
            "",
-           "Without what maps show below the roads: water, green, built-up land, buildings, "
-           "railways and names of places."},
+           "Without water, green, built-up land, buildings, railways and places on maps."},
     Option{"--json", "", "With --update: report the changes as one JSON object."}};
 
 } // namespace

@@ -20,6 +20,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace macadam {
@@ -152,7 +153,10 @@ void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events
     scene_.events = std::move(events);
     const double scale = scale_denominator_of(
         fitted_frame(scene_.box, whole_map_, scene_.projection.get()), layout_);
-    std::erase_if(scene_.lines, [&](const MapLine& line) { return !is_shown(line, scale); });
+    const auto shown = [&](const MapLine& line) { return is_shown(line, scale); };
+    if (std::ranges::any_of(scene_.lines, shown)) { // else all, rather than an empty map
+        std::erase_if(scene_.lines, std::not_fn(shown));
+    }
     const auto legend = legend_of(scene_, style_, classes_of(style_));
     layout_.map = whole_map_;
     if (const auto band = legend_band(scene_, legend, layout_, setter_)) {
