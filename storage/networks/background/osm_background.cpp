@@ -222,6 +222,18 @@ private:
         left_out_.not_closed += is_valid ? 0 : 1;
     }
 
+    /// Counts a ring of one way. \returns false if the file has too many rings longer than ways of
+    /// OpenStreetMap are (2000 nodes): each may cost the square of its nodes, as pairs of its sides
+    /// may cross.
+    bool has_room_for_ring(std::size_t nodes) {
+        constexpr std::size_t usual_nodes = 5'000;
+        constexpr double most_pairs = 2e10;
+        if (nodes > usual_nodes) {
+            pairs_of_long_rings_ += static_cast<double>(nodes) * static_cast<double>(nodes);
+        }
+        return nodes <= usual_nodes || pairs_of_long_rings_ <= most_pairs;
+    }
+
     void give_lines_and_areas() {
         for (const auto& way : ways_) {
             if (!way.kind) {
@@ -230,6 +242,8 @@ private:
             auto line = placed(way);
             if (!line) {
                 ++left_out_.not_closed;
+            } else if (!is_line_kind(*way.kind) && !has_room_for_ring(way.nodes.size())) {
+                ++left_out_.too_long;
             } else if (!is_line_kind(*way.kind)) {
                 const PlacedWay* const ring = &*line;
                 give_area(*way.kind, {&ring, 1});
@@ -292,6 +306,7 @@ private:
     std::vector<Relation> relations_;
     std::vector<std::int64_t> parts_; ///< ids of the ways of multipolygons, rising
     std::size_t points_assembled_ = 0;
+    double pairs_of_long_rings_ = 0; ///< of nodes, in rings of one way
 
     // Ways of the current round.
     std::size_t done_ = 0; ///< ways with a kind of all rounds before

@@ -209,6 +209,25 @@ TEST(OsmBackground, BoundsTheAssemblyOfMultipolygonsThatNameTheSameWaysAgainAndA
     EXPECT_GT(found.left_out.too_long, 100U);
 }
 
+TEST(OsmBackground, BoundsTheSearchForCrossingsInLongRings) {
+    OsmText text;
+    std::vector<int> ring;
+    for (int i = 0; i < 49'000; ++i) { // a comb
+        ring.push_back(text.node(i % 2 == 0 ? 47 : 47.1, 9 + i * 1e-5));
+    }
+    ring.push_back(text.node(46.9, 9.6));
+    ring.push_back(text.node(46.9, 9));
+    ring.push_back(ring.front());
+    constexpr int rings = 11;
+    for (int id = 1; id <= rings; ++id) {
+        text.way(id, ring, tag("landuse", "forest"));
+    }
+    text.way(rings + 1, text.square(50, 9, 0.1), tag("landuse", "forest"));
+    const auto found = read(text);
+    EXPECT_THAT(found.features, SizeIs(9)); // eight of 49'003 nodes, and the square
+    EXPECT_EQ(found.left_out.too_long, 3U);
+}
+
 TEST(OsmBackground, IsTheSameHoweverFewPointsAreHeldAtATime) {
     OsmText text;
     for (int id = 1; id <= 9; ++id) {
