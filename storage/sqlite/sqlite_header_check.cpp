@@ -37,10 +37,11 @@ struct Close {
     void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 };
 
-/// First bytes of a file, empty if it cannot be read. They are read with SQLite: where it has the
-/// file open in this process, any other descriptor would drop its locks as it is closed.
+/// First bytes of a file, empty if it cannot be opened. They are read with SQLite: where it has
+/// the file open in this process, any other descriptor would drop its locks as it is closed.
 ///
 /// Source: How To Corrupt An SQLite Database File, 2.2.1.
+/// \throws InputError  if the disk fails.
 std::string head_of(const std::filesystem::path& file) {
     constexpr sqlite3_int64 enough = 256;
     sqlite3* opened = nullptr;
@@ -55,12 +56,17 @@ std::string head_of(const std::filesystem::path& file) {
         bytes->pMethods == nullptr) {
         return {};
     }
+    const auto expect_done = [&](int done) {
+        if (done != SQLITE_OK) {
+            throw InputError{
+                fmt::format("{}: cannot be read: {}", file.string(), sqlite3_errstr(done))};
+        }
+    };
     sqlite3_int64 size = 0;
-    bytes->pMethods->xFileSize(bytes, &size);
+    expect_done(bytes->pMethods->xFileSize(bytes, &size));
     std::string head(static_cast<std::size_t>(std::min(size, enough)), '\0');
-    const bool is_read =
-        bytes->pMethods->xRead(bytes, head.data(), static_cast<int>(head.size()), 0) == SQLITE_OK;
-    return is_read ? head : std::string{};
+    expect_done(bytes->pMethods->xRead(bytes, head.data(), static_cast<int>(head.size()), 0));
+    return head;
 }
 
 bool is_text(std::string_view head) {
