@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
@@ -288,7 +289,8 @@ TEST_F(HandingOn, TakesTheEarlierNameOfUnitsWithANote) {
 TEST_F(HandingOn, ShowsASelectionInAReportAndOnAMap) {
     const auto page = text_of_html(read_file(
         file_of("report", "way.html", {"--way", "1", "--min-cars", "2", "--worst", "0"})));
-    EXPECT_THAT(page, HasSubstr("Selected by --way 1 --min-cars 2; cars, trips and data used"));
+    EXPECT_THAT(page,
+                ContainsRegex("Selected by +--way +1 +--min-cars +2; cars, trips and data used"));
     const auto none = run("render", {"-o", (folder_ / "a.png").string(), "--min-passes", "99"});
     EXPECT_EQ(none.exit_status, 1);
     EXPECT_THAT(none.err, HasSubstr("the selection contains no measured segment"));
