@@ -37,11 +37,11 @@ struct Close {
     void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 };
 
-/// First bytes of a file, empty if it cannot be opened. They are read with SQLite: where it has
-/// the file open in this process, any other descriptor would drop its locks as it is closed.
+/// Returns the first bytes of a file. They are read with SQLite: where it has the file open in this
+/// process, any other descriptor would drop its locks as it is closed.
 ///
 /// Source: How To Corrupt An SQLite Database File, 2.2.1.
-/// \throws InputError  if the disk fails.
+/// \throws InputError  if the file cannot be opened or read.
 std::string head_of(const std::filesystem::path& file) {
     constexpr sqlite3_int64 enough = 256;
     sqlite3* opened = nullptr;
@@ -54,7 +54,9 @@ std::string head_of(const std::filesystem::path& file) {
         sqlite3_file_control(
             opened, "main", SQLITE_FCNTL_FILE_POINTER, static_cast<void*>(&bytes)) != SQLITE_OK ||
         bytes->pMethods == nullptr) {
-        return {};
+        throw InputError{fmt::format("{}: cannot be opened: {}",
+                                     file.string(),
+                                     sqlite3_errstr(code != SQLITE_OK ? code : SQLITE_CANTOPEN))};
     }
     const auto expect_done = [&](int done) {
         if (done != SQLITE_OK) {
@@ -112,7 +114,7 @@ void expect_store_file(const std::filesystem::path& file) {
         throw InputError{
             fmt::format("{}: is {}, not a Macadam database; expected one made by 'macadam init'",
                         file.string(),
-                        head.empty() ? "empty or unreadable" : kind_of(head))};
+                        head.empty() ? "empty" : kind_of(head))};
     }
 }
 

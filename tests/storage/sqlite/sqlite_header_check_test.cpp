@@ -53,7 +53,7 @@ TEST(SqliteHeaderCheck, TellsWhatOtherFilesAre) {
         const auto file = written(test_folder(), "a.gpkg", content);
         return refusal_of([&] { expect_store_file(file); });
     };
-    EXPECT_THAT(refusal_for(""), HasSubstr("is empty or unreadable"));
+    EXPECT_THAT(refusal_for(""), HasSubstr("is empty, not a Macadam database"));
     EXPECT_THAT(refusal_for("%PDF"), HasSubstr("is a PDF"));
     EXPECT_THAT(refusal_for(std::string(1000, 'x')), HasSubstr("is a text file"));
 }

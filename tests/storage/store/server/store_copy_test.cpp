@@ -256,14 +256,14 @@ TEST_F(StoreCopies, RefuseWhatTheyCannotTake) {
 }
 
 TEST_F(StoreCopies, LeaveNothingBehindWhenTheyFail) {
-    {
-        auto store = new_store(file_);
-        auto trip = trip_record(1);
-        trip.file_name = std::string{"a\0b", 3}; // PostgreSQL stores no zero byte in text
-        add_trip(store, trip, passes_of(1));
-    }
-    EXPECT_THAT(refusal_there(),
-                AllOf(HasSubstr("the server refused the rows"), HasSubstr("UTF8")));
+    make_rich_store(file_);
+    const auto by_superuser = server_.address("roads");
+    ServerConnection{by_superuser}.run(
+        "CREATE FUNCTION refuse() RETURNS event_trigger LANGUAGE"
+        " plpgsql AS $$BEGIN RAISE EXCEPTION 'no view today'; END$$");
+    ServerConnection{by_superuser}.run("CREATE EVENT TRIGGER refused ON ddl_command_end WHEN TAG IN"
+                                       " ('CREATE VIEW') EXECUTE FUNCTION refuse()");
+    EXPECT_THAT(refusal_there(), HasSubstr("no view today"));
     EXPECT_EQ(one("SELECT count(*) FROM pg_namespace WHERE nspname = 'macadam'"), "0");
 }
 
