@@ -29,7 +29,7 @@ int socket_of(MHD_Connection* connection);
 /// Hands a response to the connection, which takes its body and file.
 MHD_Result send_response(MHD_Connection* connection, FinishedResponse& response);
 
-/// What a daemon of libmicrohttpd tells, all from its thread.
+/// Receiver of the events of a libmicrohttpd daemon, all from its thread.
 class MhdEvents {
 public:
     MhdEvents() = default;

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// How a worker of a database on a server works.
+/// Settings of a worker of a database on a server.
 struct JobWork {
     std::string address;
     std::string objects;            ///< location of the object store; "" = as submitted last

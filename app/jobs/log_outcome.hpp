@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// What an import said of the trips of one log, or archive of logs, that waited in a queue.
+/// Result of importing one queued log, or archive of logs: what the import said of its trips.
 struct LogOutcome {
     std::size_t imported = 0, known = 0, outside = 0, rejected = 0; ///< trips
     std::int64_t passes = 0;

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// What a map tells of how well its roads are known.
+/// Quantity by which a map colours how well its roads are known.
 enum class Knowledge : std::uint8_t { passes, age, confidence };
 
 inline constexpr Option colour_by_option = one_of(

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// What a server of a database shows.
+/// Sources of the answers of a server: the database and what is made from it.
 struct Pages {
     FeaturesApi features;
     const LiveContent& live;

@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-/// What a map shows below its roads, from the lowest to the topmost layer. The numbers are stored.
+/// Kinds of features below the roads of a map, from the lowest to the topmost layer. The numbers
+/// are stored.
 enum class BackgroundKind : std::uint8_t {
     built_up = 0, ///< residential, commercial and industrial land
     meadow = 1,   ///< meadows, grassland, orchards

@@ -17,7 +17,7 @@ struct BackgroundShape {
     std::vector<std::vector<PixelPoint>> rings;
 };
 
-/// How a background is drawn at a scale.
+/// Style of a background at a scale.
 struct BackgroundLook {
     double unit = 1;    ///< size of one pixel of a 1000 px picture
     double denominator; ///< scale of the map, 1:N

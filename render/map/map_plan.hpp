@@ -15,7 +15,7 @@
 
 namespace macadam {
 
-/// What a map shows below its roads.
+/// Features and names below the roads of a map.
 struct MapBackground {
     std::vector<BackgroundTile> tiles{}; ///< of MapPlan::background_level(); none over a base map
     std::vector<PlaceName> places{};     ///< the most important first

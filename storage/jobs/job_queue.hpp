@@ -45,7 +45,7 @@ std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
 /// \throws InputError  also if the commit is in doubt: then submit them again.
 std::vector<Submission> submit_logs(ServerConnection& server, std::span<const Job> logs);
 
-/// Who takes jobs.
+/// Worker that takes jobs.
 struct JobTaker {
     std::string worker; ///< its name
     std::chrono::seconds lease{60};
@@ -59,7 +59,7 @@ struct JobTaker {
 std::vector<Job>
 take_jobs(ServerConnection& server, const JobTaker& taker, std::size_t at_most, bool first_retries);
 
-/// What became of a job.
+/// End of a job: its state and the reason.
 struct JobEnd {
     Job job;
     UploadState state = UploadState::imported;

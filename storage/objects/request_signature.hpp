@@ -24,7 +24,7 @@ struct S3Request {
     std::string payload_sha256; ///< of the body, in hex digits
 };
 
-/// Where and when a signature is valid.
+/// Scope in which a signature is valid: place and time.
 struct SignatureScope {
     std::string region;
     std::string service = "s3";

@@ -5,7 +5,7 @@
 
 namespace macadam {
 
-/// What Cairo 1.16 cannot say of the structure of a PDF. Lists are in the order of the elements.
+/// Structure of a PDF that Cairo 1.16 cannot write. Lists are in the order of the elements.
 struct PdfAccess {
     std::string language;
     std::string title;

@@ -15,7 +15,7 @@
 
 namespace macadam {
 
-/// What the journal of a database says when an import begins.
+/// State of the journal of a database when an import begins.
 struct BegunImport {
     std::optional<OpenImport> earlier; ///< one of this name that started and did not finish
     bool same_runs = false;            ///< another import of this name is running
