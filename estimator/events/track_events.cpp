@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <tuple>
 
 namespace macadam {
@@ -48,10 +47,11 @@ public:
           every_{std::max<std::size_t>(1, static_cast<std::size_t>(1 / step_m))} {}
 
     double sd_at(std::size_t station) {
-        if (const auto begin = station / every_ * every_; begin_ != begin) {
-            begin_ = begin;
-            const std::size_t from = begin - std::min(begin, reach_);
-            const std::size_t to = std::min(sizes_.size(), begin + reach_ + 1);
+        if (station < begin_ || station >= end_) {
+            begin_ = station / every_ * every_;
+            end_ = begin_ + every_;
+            const std::size_t from = begin_ - std::min(begin_, reach_);
+            const std::size_t to = std::min(sizes_.size(), begin_ + reach_ + 1);
             near_.clear();
             for (std::size_t i = from; i < to; ++i) {
                 near_.push_back(std::abs(sizes_[i]));
@@ -63,10 +63,11 @@ public:
 
 private:
     const std::vector<double>& sizes_;
-    std::size_t reach_; ///< stations
-    std::size_t every_; ///< stations per metre
-    std::optional<std::size_t> begin_{};
-    double sd_ = 0; ///< of the metre from begin_ on
+    std::size_t reach_;     ///< stations
+    std::size_t every_;     ///< stations per metre
+    std::size_t begin_ = 0; ///< of the metre whose scatter is known
+    std::size_t end_ = 0;   ///< none is known yet
+    double sd_ = 0;         ///< of that metre
     std::vector<double> near_{};
 };
 
