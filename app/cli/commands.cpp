@@ -126,12 +126,13 @@ void say_what_was_left(const Command& command, const Arguments& arguments, const
 
 std::span<const Command> commands() {
     static const std::array table{
-        init_command,      inspect_command,    import_command,  watch_command,    calibrate_command,
-        reprocess_command, valid_from_command, forget_command,  privacy_command,  publish_command,
-        upgrade_command,   copy_command,       query_command,   export_command,   render_command,
-        report_command,    serve_command,      token_command,   submit_command,   worker_command,
-        status_command,    compare_command,    info_command,    iri_command,      identify_command,
-        trace_command,     match_command,      convert_command, vehicles_command, simulate_command};
+        init_command,      inspect_command,    import_command,  watch_command,   calibrate_command,
+        reprocess_command, valid_from_command, forget_command,  privacy_command, publish_command,
+        upgrade_command,   copy_command,       cells_command,   query_command,   export_command,
+        render_command,    report_command,     serve_command,   token_command,   submit_command,
+        worker_command,    status_command,     compare_command, info_command,    iri_command,
+        identify_command,  trace_command,      match_command,   convert_command, vehicles_command,
+        simulate_command};
     return table;
 }
 

@@ -4,6 +4,7 @@
 
 namespace macadam {
 
+extern const Command cells_command;  // app/jobs/command_cells.cpp
 extern const Command copy_command;   // app/store/command_copy.cpp
 extern const Command serve_command;  // app/serve/command_serve.cpp
 extern const Command status_command; // app/jobs/command_status.cpp

@@ -15,6 +15,10 @@ bool is_server_address(std::string_view database) {
 }
 
 void expect_address_without_secrets(const std::string& address) {
+    static_cast<void>(connection_settings(address));
+}
+
+ConnectionSettings connection_settings(const std::string& address) {
     struct Free {
         void operator()(PQconninfoOption* options) const { PQconninfoFree(options); }
     };
@@ -25,15 +29,20 @@ void expect_address_without_secrets(const std::string& address) {
         throw InputError{"the address of the database is malformed, expected "
                          "postgresql://USER@HOST:PORT/DATABASE"};
     }
+    ConnectionSettings settings;
     for (const auto* option = options.get(); option->keyword != nullptr; ++option) {
         const std::string_view keyword{option->keyword};
-        if (option->val != nullptr && *option->val != '\0' &&
-            (keyword == "password" || keyword == "sslpassword")) {
+        if (option->val == nullptr || *option->val == '\0') {
+            continue;
+        }
+        if (keyword == "password" || keyword == "sslpassword") {
             throw InputError{"the address of the database holds a password, which others see in "
                              "the list of processes; expected it in the file ~/.pgpass (mode "
                              "0600) or in PGPASSWORD"};
         }
+        settings.emplace(keyword, option->val);
     }
+    return settings;
 }
 
 void expect_file(std::string_view database) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,14 @@ bool is_server_address(std::string_view database);
 ///
 /// \throws InputError  if it is malformed or holds a password; the message repeats no part of it.
 void expect_address_without_secrets(const std::string& address);
+
+/// Values by libpq's keyword: host, dbname, user, ...
+using ConnectionSettings = std::map<std::string, std::string>;
+
+/// Settings that an address gives.
+///
+/// \throws InputError  as expect_address_without_secrets().
+ConnectionSettings connection_settings(const std::string& address);
 
 /// Refuses the address of a server where only a file serves.
 ///

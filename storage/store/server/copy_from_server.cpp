@@ -12,6 +12,7 @@
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/store/server/server_digest.hpp"
+#include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
@@ -193,7 +194,8 @@ private:
         BulkInsert passes{*file_, "INSERT INTO pass", 15};
         auto traces = file_->prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)");
         CopyReader reader{*server_,
-                          fmt::format("(SELECT {} FROM macadam.drive ORDER BY chunk, trip, drive)",
+                          fmt::format("(SELECT {} FROM macadam.drive WHERE trip IN (SELECT id FROM"
+                                      " macadam.trip) ORDER BY chunk, trip, drive)",
                                       column_list(table)),
                           table.name,
                           columns_of(table)};
@@ -284,7 +286,9 @@ copy_from_server(const std::string& address, const fs::path& file, const Progres
             fmt::format("{}: already exists, expected the name of a new file", file.string())};
     }
     ServerConnection server{address};
+    stop_writers(server);
     server.begin(true);
+    see_all_cells(server);
     expect_server_schema(server);
     AtomicFileSet whole{file};
     Database database{whole.main_file(), Database::Access::create, file};
@@ -331,7 +335,9 @@ std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
                                                   Database::Access access,
                                                   const LockWaitPolicy& wait_policy,
                                                   const Progress& progress) {
+    stop_writers(server);
     ServerTransaction one_moment{server, true};
+    see_all_cells(server);
     expect_server_schema(server);
     auto copy = std::make_shared<ServerCopy>(fs::temp_directory_path() / "macadam");
     const auto file = copy->folder.path() / "roads.gpkg";

@@ -5,9 +5,11 @@
 namespace macadam {
 namespace {
 
-// First numbers of our pairs: the letters "maca" and "macb".
+// First numbers of our pairs: the letters "maca" and so on.
 constexpr int of_database = 0x6d616361;
 constexpr int of_imports = 0x6d616362;
+constexpr int of_cells = 0x6d616363;
+constexpr int of_all_places = -1; // beside the numbers of cells
 
 } // namespace
 
@@ -17,6 +19,43 @@ void share_database(ServerConnection& server) {
 
 void take_database(ServerConnection& server) {
     server.rows(fmt::format("SELECT pg_advisory_lock({}, 0)", of_database));
+}
+
+bool has_cells(ServerConnection& server) {
+    return server.number("SELECT (to_regclass('macadam.cell_place') IS NOT NULL)::integer") != 0;
+}
+
+void share_cells(ServerConnection& server, const std::set<std::int32_t>& cells) {
+    server.rows(fmt::format("SELECT pg_advisory_xact_lock_shared({}, cell)"
+                            " FROM unnest($1::integer[]) AS cell",
+                            of_cells),
+                {fmt::format("{{{}}}", fmt::join(cells, ","))});
+}
+
+void take_cell(ServerConnection& server, std::int32_t cell) {
+    server.rows(fmt::format("SELECT pg_advisory_xact_lock({}, {})", of_cells, cell));
+}
+
+void take_cell_places(ServerConnection& server) {
+    server.rows(fmt::format("SELECT pg_advisory_lock({}, {})", of_cells, of_all_places));
+}
+
+void stop_writers(ServerConnection& server) {
+    if (has_cells(server)) {
+        take_database(server);
+    }
+}
+
+void see_all_cells(ServerConnection& server) {
+    if (has_cells(server)) {
+        server.run("LOCK TABLE macadam.drive, macadam.segment_state IN ACCESS SHARE MODE");
+        server.run("SELECT count(*) FROM macadam.drive WHERE trip = -1");
+        release_database(server);
+    }
+}
+
+void release_database(ServerConnection& server) {
+    server.rows(fmt::format("SELECT pg_advisory_unlock({}, 0)", of_database));
 }
 
 std::int32_t number_of_import(const std::string& name) {

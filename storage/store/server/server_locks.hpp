@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace macadam {
@@ -16,6 +17,32 @@ void share_database(ServerConnection& server);
 
 /// Takes the database alone, until the end of the connection; waits for all others.
 void take_database(ServerConnection& server);
+
+/// \name Cells: map tiles whose drives and fused values may lie on other servers
+/// @{
+
+/// Tests whether other servers hold cells of this database.
+bool has_cells(ServerConnection& server);
+
+/// Shares cells with who else reads or writes their drives until the end of the transaction; waits
+/// for who moves one. Before anything is read from them, so that nobody waits for a cell while he
+/// holds what its mover needs.
+void share_cells(ServerConnection& server, const std::set<std::int32_t>& cells);
+
+/// Takes a cell alone, until the end of the transaction.
+void take_cell(ServerConnection& server, std::int32_t cell);
+
+/// Takes the map of cells to servers alone, until the end of the connection.
+void take_cell_places(ServerConnection& server);
+
+/// With cells, makes writers wait before a transaction that is to see one moment of all servers
+/// begins, and after it began, opens it on each of them and lets the writers on.
+void stop_writers(ServerConnection& server);
+void see_all_cells(ServerConnection& server);
+/// @}
+
+/// Ends what take_database() began.
+void release_database(ServerConnection& server);
 
 /// Number that stands for an import, from its name.
 std::int32_t number_of_import(const std::string& name);

@@ -4,6 +4,7 @@
 #include "support/program/program.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace macadam::testing {
 namespace {
@@ -52,6 +53,41 @@ TEST_F(ServerCommands, WriteWhatTheyWriteToAFile) {
     expect_one_digest("forget");
     EXPECT_THAT(run_on(address_, {"import", trip_}).err,
                 HasSubstr("0 trips imported, 1 already imported"));
+}
+
+TEST_F(ServerCommands, WriteToCellsOnAnotherServerWhatTheyWriteToAFile) {
+    run_on_both({"init", "--trace", trip_});
+    const auto list = run_on(address_, {"cells", "--json"});
+    const auto cells = nlohmann::json::parse(list.out);
+    ASSERT_EQ(cells.size(), 1U) << list.err;
+    EXPECT_TRUE(cells[0]["server"].is_null());
+    const auto number = std::to_string(cells[0]["cell"].get<int>());
+    const auto east = server_.new_database("east");
+    const auto moved = run_on(server_.address("roads"), {"cells", "--move", number, "--to", east});
+    EXPECT_EQ(moved.exit_status, 0);
+    EXPECT_THAT(moved.err, HasSubstr("cell " + number + ": 0 rows moved to " + east));
+    EXPECT_THAT(moved.out, HasSubstr("dbname='east'"));
+    run_on_both({"import", trip_, "--method", "kf"});
+    expect_one_digest("import");
+    run_on_both({"reprocess", trip_, "--method", "kf", "--rate", "50"});
+    expect_one_digest("reprocess");
+    run_on_both({"forget", "--trip", "gyor_q3_00.trip.csv"});
+    expect_one_digest("forget");
+}
+
+TEST_F(ServerCommands, SayWhyTheyCannotMoveCells) {
+    ASSERT_EQ(run_on(address_, {"init", "--trace", trip_}).exit_status, 0);
+    EXPECT_THAT(run_on(address_, {"cells", "--move", "1"}).err,
+                HasSubstr("--move is without --to, expected both: where the cells go"));
+    EXPECT_THAT(run_on(address_, {"cells", "--to", address_}).err,
+                HasSubstr("--to is without --move, expected both: which cells go there"));
+    EXPECT_THAT(run_on(address_, {"cells", "--move", "x", "--to", address_}).err,
+                HasSubstr("--move has 'x', expected numbers of cells"));
+    EXPECT_THAT(run_on(address_, {"cells", "--move", "1", "--to", "east"}).err,
+                HasSubstr("--to is 'east', expected postgresql://USER@HOST/DATABASE"));
+    const auto none = run_on(address_, {"cells", "--move", "1", "--to", address_});
+    EXPECT_EQ(none.exit_status, 1);
+    EXPECT_THAT(none.err, HasSubstr("has no cell 1; 'macadam cells " + address_ + "' lists them"));
 }
 
 TEST_F(ServerCommands, SayWhyTheyCannot) {

@@ -40,7 +40,7 @@ void expect_success(const fs::path& folder, const std::string& command) {
 
 } // namespace
 
-PostgresServer::PostgresServer(std::chrono::seconds most) {
+PostgresServer::PostgresServer(std::chrono::seconds most) : most_{most} {
     std::string name = "/tmp/macadam-pg-XXXXXX"; // paths of sockets have at most 107 bytes
     if (mkdtemp(name.data()) == nullptr) {
         throw std::runtime_error{"cannot create " + name};
@@ -60,12 +60,19 @@ PostgresServer::PostgresServer(std::chrono::seconds most) {
                                run,
                                programs,
                                name));
+    start();
+}
+
+void PostgresServer::start() {
+    const auto programs = server_programs().string();
+    const auto name = folder_.string();
     expect_success(
         folder_,
-        fmt::format("({} timeout -k 5 {} {}/postgres -D {}/data -c listen_addresses="
+        fmt::format("(cd / && unset PGHOST PGUSER PGDATABASE PGPASSWORD; {} timeout -k 5 {}"
+                    " {}/postgres -D {}/data -c listen_addresses="
                     " -c unix_socket_directories={} -c fsync=off >/dev/null 2>&1 </dev/null &)",
-                    run,
-                    most.count(),
+                    as_ordinary_user(),
+                    most_.count(),
                     programs,
                     name,
                     name));
@@ -74,6 +81,16 @@ PostgresServer::PostgresServer(std::chrono::seconds most) {
                                " sleep 0.1; done; exit 1)",
                                programs,
                                name));
+}
+
+void PostgresServer::kill_and_restart() {
+    // The workers first: they would not let another one in.
+    expect_success(folder_,
+                   fmt::format("first=$(head -1 {0}/data/postmaster.pid); kill -STOP $first;"
+                               " kill -KILL $(ps -o pid= --ppid $first) $first;"
+                               " rm -f {0}/data/postmaster.pid {0}/.s.PGSQL.5432*; sleep 0.2",
+                               folder_.string()));
+    start();
 }
 
 PostgresServer::~PostgresServer() {

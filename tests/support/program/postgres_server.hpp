@@ -19,6 +19,9 @@ public:
     PostgresServer& operator=(const PostgresServer&) = delete;
     ~PostgresServer();
 
+    /// Ends all of it at once, as a machine that fails does, and starts it again.
+    void kill_and_restart();
+
     /// Address of a database for a role.
     std::string address(const std::string& database = "postgres",
                         const std::string& role = "boss") const;
@@ -28,7 +31,10 @@ public:
     std::string new_database(const std::string& name);
 
 private:
+    void start();
+
     std::filesystem::path folder_;
+    std::chrono::seconds most_;
 };
 
 } // namespace macadam::testing

@@ -168,7 +168,7 @@ void FusionScratch::copy_drives(const ChunkConditions& conditions) {
     }
 }
 
-/// Copies what fusion looks up of trips.
+/// Copies what fusion looks up of trips. Drives on other servers count only if their trip is here.
 void FusionScratch::copy_trips(std::span<const std::int64_t> trips) {
     auto insert = memory_.prepare(
         "INSERT INTO trip (id, sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,"
@@ -180,6 +180,7 @@ void FusionScratch::copy_trips(std::span<const std::int64_t> trips) {
                                 fmt::join(trips, ", ")),
                     "trip",
                     6};
+    std::size_t found = 0;
     while (rows.next()) {
         const auto& row = rows.row();
         insert.run(row.integer(0),
@@ -188,6 +189,11 @@ void FusionScratch::copy_trips(std::span<const std::int64_t> trips) {
                    row.known_integer(3),
                    row.bytes(4),
                    row.known_integer(5));
+        ++found;
+    }
+    if (found < trips.size()) {
+        memory_.run("DELETE FROM pass WHERE trip NOT IN (SELECT id FROM trip);"
+                    "DELETE FROM trace WHERE trip NOT IN (SELECT id FROM trip)");
     }
 }
 

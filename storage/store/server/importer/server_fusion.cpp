@@ -2,6 +2,7 @@
 
 #include "storage/postgres/copy_stream.hpp"
 #include "storage/store/rows/audit.hpp"
+#include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_tables.hpp"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace macadam {
@@ -202,6 +204,11 @@ ServerFusion::fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecor
         batch.marks.push_back(marks[i + 1]);
     }
     if (!batch.chunks.empty()) {
+        std::set<std::int32_t> cells;
+        for (const auto chunk : batch.chunks) {
+            cells.insert(rows_->place_of(chunk).cell);
+        }
+        share_cells(*server_, cells);
         batch.fused = scratch_.fused(batch.chunks);
         write(batch, now);
     }

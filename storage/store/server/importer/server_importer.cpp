@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/store/rows/known_trips.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/importer/network_image.hpp"
 #include "storage/store/server/importer/server_fusion.hpp"
 #include "storage/store/server/importer/trip_rows.hpp"
@@ -86,6 +87,7 @@ public:
     }
 
     BegunImport begin_import(const std::string& name, std::size_t trips_asked) override {
+        remove_unfinished(*server_);
         const auto number = number_of_import(name);
         take_import_lock(*server_, number);
         BegunImport begun;

@@ -5,7 +5,9 @@
 #include "storage/store/privacy/trip_names.hpp"
 #include "storage/store/rows/known_trips.hpp"
 #include "storage/store/rows/pass_writer.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/drive_rows.hpp"
+#include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_tables.hpp"
 
 #include <fmt/format.h>
@@ -169,12 +171,25 @@ private:
         if (drives_.empty()) {
             return;
         }
+        std::set<std::int32_t> cells;
+        std::set<std::int64_t> trips;
+        for (const auto& [name, drive] : drives_) {
+            cells.insert(rows_->place_of(name.chunk).cell);
+            trips.insert(name.trip);
+        }
+        share_cells(*server_, cells);
+        const bool elsewhere = are_elsewhere(*server_, cells);
         const auto& table = server_table("drive");
-        CopyWriter writer{*server_, copy_target(table), static_cast<int>(table.columns.size())};
+        CopyWriter writer{*server_,
+                          elsewhere ? place_for_drives(*server_) : copy_target(table),
+                          static_cast<int>(table.columns.size())};
         for (auto& [name, drive] : drives_) {
             write_drive(writer, rows_->place_of(name.chunk).cell, name, std::move(drive));
         }
         writer.finish();
+        if (elsewhere) {
+            put_drives(*server_, std::vector<std::int64_t>{trips.begin(), trips.end()});
+        }
     }
 
     void write_events(const std::vector<Candidate>& candidates) {

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/store/rows/store_digest.hpp"
+#include "storage/store/server/cells/cell_moves.hpp"
 #include "storage/store/server/replica/write_back.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_locks.hpp"
@@ -23,6 +24,7 @@ public:
                   const LockWaitPolicy& wait_policy,
                   const Progress& progress)
         : server_{address} {
+        take_cell_places(server_);
         take_database(server_);
         copy_ = open_server_copy(server_, Database::Access::write, wait_policy, progress);
         recorder_.emplace(copy_->database);
@@ -38,7 +40,9 @@ private:
             return;
         }
         auto& database = copy_->database;
+        const auto next = prepare_cells(server_);
         ServerTransaction all{server_};
+        switch_cells(server_, next);
         write_back(server_, *copy_, changed);
         const auto digest = digest_of(database, {.report = {}, .stop = progress.stop});
         const auto written = digest_of_server(
@@ -51,6 +55,7 @@ private:
                                          digest)};
         }
         all.commit();
+        drop_unused_cell_tables(server_);
         recorder_.emplace(database);
     }
 

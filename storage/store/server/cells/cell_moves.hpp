@@ -1,0 +1,47 @@
+#pragma once
+
+#include "storage/postgres/server_connection.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Cell of a database on a server.
+struct MapCell {
+    std::int32_t number; ///< of the quadkey of its map tile
+    std::int64_t segments = 0;
+    std::string connection{}; ///< of the server that holds its drives; empty: this one
+};
+
+/// Lists the cells of a database, rising.
+std::vector<MapCell> cells_of(ServerConnection& front);
+
+/// Moves the drives and fused values of a cell to the server behind an address, or, if that is the
+/// database's own, back to it, and compares them on both sides. One transaction of the front: on
+/// any failure the cell is where it was. Importers that write to the cell wait meanwhile.
+///
+/// \returns rows moved; 0 if it was there already.
+/// \throws InputError  if the database has no such cell, or the role does not own it.
+std::int64_t move_cell(ServerConnection& front, std::int32_t cell, const std::string& address);
+
+/// Tables of a cell on another server that are about to be replaced.
+struct NextCellTables {
+    std::int32_t cell;
+    std::int64_t number; ///< of the new ones
+};
+
+/// Prepares a generation: copies the tables of each cell on its server, under new names. The role
+/// has the places of cells alone.
+std::vector<NextCellTables> prepare_cells(ServerConnection& front);
+
+/// Lets the front read and write the new tables, within the caller's transaction: all servers
+/// switch with its commit.
+void switch_cells(ServerConnection& front, const std::vector<NextCellTables>& next);
+
+/// Removes tables on other servers that the front does not use: replaced ones, and those of work
+/// that was interrupted. The role has the places of cells alone.
+void drop_unused_cell_tables(ServerConnection& front);
+
+} // namespace macadam

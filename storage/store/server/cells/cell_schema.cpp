@@ -1,0 +1,339 @@
+#include "storage/store/server/cells/cell_schema.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/postgres/server_address.hpp"
+#include "storage/store/server/server_locks.hpp"
+#include "storage/store/server/server_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+// Parts of the texts below: {columns} "cell, chunk, ..." of table drive, {arrays} "cell integer[],
+// ...", {values} "$3, $4, ...", as many.
+
+/// On the front, as its owner.
+constexpr const char* front_tables = R"sql(
+CREATE TABLE macadam.cell_server (name text PRIMARY KEY, connection text NOT NULL UNIQUE);
+CREATE TABLE macadam.cell_place (
+    cell integer PRIMARY KEY,
+    server text NOT NULL REFERENCES macadam.cell_server,
+    number bigint NOT NULL
+);
+CREATE SEQUENCE macadam.cell_number;
+CREATE TABLE macadam.unfinished (trip bigint PRIMARY KEY, at timestamptz NOT NULL DEFAULT now());
+COMMENT ON TABLE macadam.cell_server IS 'Other servers that hold cells of this database';
+COMMENT ON COLUMN macadam.cell_server.name IS 'Name of the foreign server';
+COMMENT ON COLUMN macadam.cell_server.connection IS 'How this server connects to it; passwords are in .pgpass of its user';
+COMMENT ON TABLE macadam.cell_place IS 'Cells on other servers';
+COMMENT ON COLUMN macadam.cell_place.cell IS 'Map tile of zoom 8, as the number of its quadkey';
+COMMENT ON COLUMN macadam.cell_place.server IS 'Server that holds its drives and fused values';
+COMMENT ON COLUMN macadam.cell_place.number IS 'Number that ends the names of its tables there';
+COMMENT ON SEQUENCE macadam.cell_number IS 'Numbers of tables on other servers';
+COMMENT ON TABLE macadam.unfinished IS 'Trips whose drives other servers may have, though the trip was not stored: to be removed there';
+COMMENT ON COLUMN macadam.unfinished.trip IS 'Row that the trip would have had';
+COMMENT ON COLUMN macadam.unfinished.at IS 'When its drives were sent';
+
+CREATE FUNCTION macadam.connection_of(server text) RETURNS text LANGUAGE sql STABLE
+SET search_path = pg_catalog AS 'SELECT connection FROM macadam.cell_server WHERE name = server';
+COMMENT ON FUNCTION macadam.connection_of(text) IS 'How this server connects to one that holds cells';
+
+CREATE OR REPLACE FUNCTION macadam.add_cell(cell integer) RETURNS void
+LANGUAGE plpgsql SET search_path = pg_catalog AS $$
+DECLARE
+    parent text;
+    keys text;
+BEGIN
+    FOR parent, keys IN VALUES ('segment', NULL), ('drive', 'cell, chunk, trip, drive'),
+                               ('segment_state', 'cell, fid') LOOP
+        EXECUTE format('CREATE TABLE macadam.%I PARTITION OF macadam.%I FOR VALUES IN (%s)',
+                       parent || '_' || cell, parent, cell);
+        EXECUTE format('COMMENT ON TABLE macadam.%I IS %L', parent || '_' || cell,
+                       'Rows of table ' || parent || ' in map tile ' || cell);
+        IF keys IS NOT NULL THEN
+            EXECUTE format('ALTER TABLE macadam.%I ADD PRIMARY KEY (%s)',
+                           parent || '_' || cell, keys);
+        END IF;
+    END LOOP;
+END $$;
+
+-- Keys go from the whole to its partitions, which keep theirs while they are detached.
+DO $$
+DECLARE
+    part record;
+    statement text;
+    attaching text[] := '{}';
+BEGIN
+    FOR part IN SELECT inhrelid::regclass AS name, inhparent::regclass AS parent,
+                       pg_get_expr(relpartbound, inhrelid) AS bounds
+                FROM pg_inherits JOIN pg_class ON pg_class.oid = inhrelid
+                WHERE inhparent IN ('macadam.drive'::regclass, 'macadam.segment_state'::regclass) LOOP
+        EXECUTE format('ALTER TABLE %s DETACH PARTITION %s', part.parent, part.name);
+        attaching := attaching || format('ALTER TABLE %s ATTACH PARTITION %s %s',
+                                         part.parent, part.name, part.bounds);
+    END LOOP;
+    FOR statement IN SELECT format('ALTER TABLE %s DROP CONSTRAINT %I', conrelid::regclass, conname)
+                     FROM pg_constraint WHERE contype IN ('p', 'f')
+                     AND conrelid IN ('macadam.drive'::regclass, 'macadam.segment_state'::regclass) LOOP
+        EXECUTE statement;
+    END LOOP;
+    FOREACH statement IN ARRAY attaching LOOP
+        EXECUTE statement;
+    END LOOP;
+END $$;
+
+DO $$
+DECLARE
+    role text;
+BEGIN
+    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
+        EXECUTE format('GRANT SELECT ON macadam.cell_server, macadam.cell_place TO %I', role);
+        EXECUTE format('GRANT SELECT, INSERT, UPDATE, DELETE ON macadam.unfinished TO %I', role);
+    END LOOP;
+END $$;
+)sql";
+
+/// On the front, as a superuser: functions that run on the server named by their first argument.
+constexpr const char* front_functions = R"sql(
+CREATE EXTENSION IF NOT EXISTS postgres_fdw SCHEMA public;
+CREATE EXTENSION IF NOT EXISTS plproxy SCHEMA public;
+CREATE FUNCTION macadam.put_drives(server text, target text, {arrays}) RETURNS bigint
+LANGUAGE plproxy AS $$ CONNECT macadam.connection_of(server); $$;
+CREATE FUNCTION macadam.add_cell_tables(server text, cell integer, number bigint, copied bigint)
+RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam.connection_of(server); $$;
+CREATE FUNCTION macadam.drop_cell_tables(server text, kept bigint[])
+RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam.connection_of(server); $$;
+COMMENT ON FUNCTION macadam.put_drives IS 'Stores drives in a table of another server, in a transaction of its own; what is there already stays';
+COMMENT ON FUNCTION macadam.add_cell_tables IS 'Creates tables of a cell on another server, filled from those of another number there';
+COMMENT ON FUNCTION macadam.drop_cell_tables IS 'Removes tables of cells on another server but those of these numbers';
+REVOKE ALL ON FUNCTION macadam.put_drives, macadam.add_cell_tables, macadam.drop_cell_tables FROM PUBLIC;
+DO $$
+DECLARE
+    role text;
+BEGIN
+    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
+        EXECUTE format('GRANT EXECUTE ON FUNCTION macadam.put_drives TO %I', role);
+    END LOOP;
+    SELECT nspowner::regrole INTO role FROM pg_namespace WHERE nspname = 'macadam';
+    EXECUTE format('GRANT EXECUTE ON FUNCTION macadam.put_drives, macadam.add_cell_tables,'
+                   ' macadam.drop_cell_tables TO %s', role);
+END $$;
+)sql";
+
+/// On a server that holds cells: the same functions, and empty tables, as which those are made that
+/// hold rows.
+constexpr const char* cell_functions = R"sql(
+CREATE INDEX drive_of_trip ON macadam.drive (trip);
+COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
+CREATE FUNCTION macadam.put_drives(server text, target text, {arrays}) RETURNS bigint
+LANGUAGE plpgsql SET search_path = pg_catalog AS $$
+DECLARE
+    added bigint;
+BEGIN
+    EXECUTE format('INSERT INTO macadam.%I ({columns}) SELECT * FROM unnest({places})'
+                   ' ON CONFLICT DO NOTHING', target) USING {values};
+    GET DIAGNOSTICS added = ROW_COUNT;
+    RETURN added;
+END $$;
+CREATE FUNCTION macadam.add_cell_tables(server text, cell integer, number bigint, copied bigint)
+RETURNS bigint LANGUAGE plpgsql SET search_path = pg_catalog AS $$
+DECLARE
+    parent text;
+    new_name text;
+    added bigint;
+    all_rows bigint := 0;
+BEGIN
+    FOREACH parent IN ARRAY ARRAY['drive', 'segment_state'] LOOP
+        new_name := parent || '_' || cell || '_' || number;
+        EXECUTE format('CREATE TABLE macadam.%I (LIKE macadam.%I INCLUDING ALL)', new_name, parent);
+        EXECUTE format('COMMENT ON TABLE macadam.%I IS %L', new_name,
+                       'Rows of table ' || parent || ' in map tile ' || cell);
+        IF copied IS NOT NULL THEN
+            EXECUTE format('INSERT INTO macadam.%I SELECT * FROM macadam.%I', new_name,
+                           parent || '_' || cell || '_' || copied);
+            GET DIAGNOSTICS added = ROW_COUNT;
+            all_rows := all_rows + added;
+        END IF;
+    END LOOP;
+    RETURN all_rows;
+END $$;
+CREATE FUNCTION macadam.drop_cell_tables(server text, kept bigint[]) RETURNS bigint
+LANGUAGE plpgsql SET search_path = pg_catalog SET lock_timeout = '2s' AS $$
+DECLARE
+    leaving text;
+    dropped bigint := 0;
+BEGIN
+    FOR leaving IN SELECT relname FROM pg_class WHERE relnamespace = 'macadam'::regnamespace
+                   AND relkind = 'r' AND relname ~ '^(drive|segment_state)_\d+_\d+$'
+                   AND substring(relname FROM '\d+$')::bigint <> ALL (kept) LOOP
+        BEGIN
+            EXECUTE format('DROP TABLE macadam.%I', leaving);
+            dropped := dropped + 1;
+        EXCEPTION WHEN lock_not_available THEN
+            NULL; -- read at the moment: next time
+        END;
+    END LOOP;
+    RETURN dropped;
+END $$;
+COMMENT ON FUNCTION macadam.put_drives IS 'Stores drives in a table; what is there already stays';
+COMMENT ON FUNCTION macadam.add_cell_tables IS 'Creates tables of a cell, filled from those of another number';
+COMMENT ON FUNCTION macadam.drop_cell_tables IS 'Removes tables of cells but those of these numbers';
+REVOKE ALL ON FUNCTION macadam.put_drives, macadam.add_cell_tables, macadam.drop_cell_tables FROM PUBLIC;
+)sql";
+
+std::string with(std::string text, std::string_view what, std::string_view by) {
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+        text.replace(at, what.size(), by);
+    }
+    return text;
+}
+
+/// "bigint" of "bigint NOT NULL REFERENCES ...".
+std::string_view plain_type(const ServerColumn& column) {
+    const std::string_view type{column.type};
+    return type.substr(0, type.find(' '));
+}
+
+std::string with_columns(const char* text) {
+    const auto& drive = server_table("drive");
+    std::string arrays, places, values;
+    int number = 0;
+    for (const auto& column : drive.columns) {
+        const auto* const comma = number++ == 0 ? "" : ", ";
+        arrays += fmt::format("{}{} {}[]", comma, column.name, plain_type(column));
+        places += fmt::format("{}${}", comma, number);
+        values += fmt::format("{}${}", comma, number + 2); // after server and target
+    }
+    return with(with(with(with(text, "{arrays}", arrays), "{places}", places), "{values}", values),
+                "{columns}",
+                column_list(drive));
+}
+
+std::string table_of_cells(const ServerTable& table) {
+    std::string text;
+    std::string comments = fmt::format("COMMENT ON TABLE macadam.{} IS 'As which tables of cells "
+                                       "are made; empty';\n",
+                                       table.name);
+    for (const auto& column : table.columns) {
+        std::string_view type{column.type};
+        type = type.substr(0, type.find(" REFERENCES"));
+        text += fmt::format("{} {}, ", column.name, type);
+        comments += fmt::format("COMMENT ON COLUMN macadam.{}.{} IS '{}';\n",
+                                table.name,
+                                column.name,
+                                with(column.meaning, "'", "''"));
+    }
+    return fmt::format(
+        "CREATE TABLE macadam.{} ({}{});\n{}", table.name, text, table.constraints, comments);
+}
+
+void create_cell_schema(ServerConnection& cell) {
+    if (cell.number("SELECT count(*) FROM pg_namespace WHERE nspname = 'macadam'") != 0) {
+        throw InputError{fmt::format("{}: already has a schema macadam, expected a database "
+                                     "without one",
+                                     cell.address())};
+    }
+    cell.run("CREATE SCHEMA macadam;"
+             "COMMENT ON SCHEMA macadam IS 'Cells of a road database on another server'");
+    cell.run(table_of_cells(server_table("drive")));
+    cell.run(table_of_cells(server_table("segment_state")));
+    cell.run(with_columns(cell_functions));
+}
+
+/// Settings with which the front's server connects.
+ConnectionSettings settings_of(const std::string& address) {
+    auto settings = connection_settings(address);
+    settings.try_emplace("connect_timeout", "10");
+    return settings;
+}
+
+void add_foreign_server(ServerConnection& front,
+                        const CellServer& server,
+                        const std::string& address) {
+    std::string options = "fetch_size '10000', batch_size '1000'";
+    std::string user;
+    for (const auto& [keyword, value] : settings_of(address)) {
+        (keyword == "user" ? user : options) += fmt::format(
+            "{}{} '{}'", keyword == "user" ? "" : ", ", keyword, with(value, "'", "''"));
+    }
+    front.run(fmt::format(
+        "CREATE SERVER {} FOREIGN DATA WRAPPER postgres_fdw OPTIONS ({})", server.name, options));
+    // Rights are those on the front's tables; the front itself has the password, or needs none.
+    front.run(fmt::format("CREATE USER MAPPING FOR PUBLIC SERVER {} OPTIONS ({}{}"
+                          "password_required 'false')",
+                          server.name,
+                          user,
+                          user.empty() ? "" : ", "));
+    front.run(fmt::format("DO $$ BEGIN EXECUTE format('GRANT USAGE ON FOREIGN SERVER {} TO %s',"
+                          " (SELECT nspowner::regrole FROM pg_namespace WHERE nspname ="
+                          " 'macadam')); END $$",
+                          server.name));
+}
+
+std::string connection_text(const std::string& address) {
+    std::string text;
+    for (const auto& [keyword, value] : settings_of(address)) {
+        text += fmt::format("{}{}='{}'",
+                            text.empty() ? "" : " ",
+                            keyword,
+                            with(with(value, "\\", "\\\\"), "'", "\\'"));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string cell_table(const std::string& parent, std::int32_t cell, std::int64_t number) {
+    return fmt::format("{}_{}_{}", parent, cell, number);
+}
+
+void act_as_owner(ServerConnection& front) {
+    const auto owner = front.rows("SELECT nspowner::regrole FROM pg_namespace"
+                                  " WHERE nspname = 'macadam'");
+    front.run(fmt::format("SET LOCAL ROLE {}", owner.at(0).at(0).value_or("")));
+}
+
+std::optional<CellServer> cell_server_at(ServerConnection& front, const std::string& address) {
+    const auto connection = connection_text(address);
+    if (!has_cells(front)) {
+        return std::nullopt;
+    }
+    const auto found =
+        front.rows("SELECT name FROM macadam.cell_server WHERE connection = $1", {connection});
+    return found.empty() ? std::nullopt
+                         : std::optional{CellServer{found[0][0].value_or(""), connection}};
+}
+
+CellServer add_cell_server(ServerConnection& front, const std::string& address) {
+    if (!front.is_superuser()) {
+        throw InputError{fmt::format("{}: only a superuser of this server adds another one, since "
+                                     "PL/Proxy and postgres_fdw connect with its rights",
+                                     front.address())};
+    }
+    ServerConnection cell{address};
+    cell.begin(false);
+    create_cell_schema(cell);
+    take_database(front); // changes of tables that importers use would stop in one another's way
+    ServerTransaction all{front};
+    if (!has_cells(front)) {
+        act_as_owner(front);
+        front.run(front_tables);
+        front.run("RESET ROLE");
+        front.run(with_columns(front_functions));
+    }
+    CellServer server;
+    server.name = fmt::format("macadam_cells_{}",
+                              front.number("SELECT count(*) + 1 FROM macadam.cell_server"));
+    server.connection = connection_text(address);
+    add_foreign_server(front, server, address);
+    front.rows("INSERT INTO macadam.cell_server VALUES ($1, $2)", {server.name, server.connection});
+    cell.commit();
+    all.commit();
+    release_database(front);
+    return server;
+}
+
+} // namespace macadam

@@ -1,0 +1,351 @@
+// A database whose cells lie on two servers, with roads across their border.
+
+#include "storage/store/server/cells/cell_moves.hpp"
+
+#include "mapping/network/build_network.hpp"
+#include "storage/postgres/server_connection.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
+#include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
+#include "storage/store/server/store_copy.hpp"
+#include "support/files/files.hpp"
+#include "support/program/postgres_server.hpp"
+#include "support/roads/engine_world.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#include <future>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::int64_t ways = 3;
+
+/// Three roads of 200 m in a row towards the east: before the border of two map tiles of zoom 8,
+/// across it, and behind it.
+RoadNetwork border_country() {
+    constexpr double border_deg = 3 * 360.0 / 256, length_deg = 200.2 / 77'640;
+    std::vector<Way> roads;
+    for (std::int64_t number = 1; number <= ways; ++number) {
+        const double west_deg = border_deg + (static_cast<double>(number) - 2.5) * length_deg;
+        Way way{.id = number,
+                .name = "",
+                .highway = "residential",
+                .node_ids = {number, number + 1},
+                .line = {{45.7, west_deg}, {45.7, west_deg + length_deg}}};
+        roads.push_back(way);
+    }
+    return build_network(std::move(roads), 20);
+}
+
+/// Trip over all three roads, there and back.
+struct BorderTrip {
+    explicit BorderTrip(int number) : record{RichTrip{number}.record} {
+        const RichTrip one{number};
+        for (std::int64_t way = 1; way <= ways; ++way) {
+            for (auto pass : one.passes) {
+                pass.segment.way_id = way;
+                passes.push_back(pass);
+            }
+            for (auto trace : one.traces) {
+                trace.chunk.way_id = way;
+                traces.push_back(trace);
+            }
+            for (auto event : one.events) {
+                event.segment.way_id = way;
+                events.push_back(event);
+            }
+        }
+    }
+
+    NewTrip as_new() const { return {&record, passes, traces, false, events}; }
+
+    TripRecord record;
+    std::vector<Pass> passes;
+    std::vector<RoughnessTrace> traces;
+    std::vector<PassEvent> events;
+};
+
+bool add(ImportTarget& trips, int number) {
+    const BorderTrip trip{number};
+    const auto one = trip.as_new();
+    return trips.add_trips({&one, 1}).front();
+}
+
+/// Adds trips to a file and fuses them.
+void import_into(const RoadStore& file, int first, int past) {
+    const auto open = import_store_of(file);
+    for (int number = first; number < past; ++number) {
+        add(*open.trips, number);
+    }
+    fuse_all(*open.trips);
+}
+
+class Cells : public ::testing::Test {
+protected:
+    void SetUp() override {
+        static_cast<void>(RoadStore::create(folder_ / "roads.gpkg", border_country(), settings()));
+        copy_to_server(folder_ / "roads.gpkg", front_, {}, {});
+        ServerConnection boss{boss_};
+        for (const auto& cell : cells_of(boss)) {
+            numbers_.push_back(cell.number);
+        }
+        ASSERT_EQ(numbers_.size(), 2U);
+    }
+
+    std::string digest_of_file(int trips) {
+        auto store = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+        import_into(store, 0, trips);
+        return store.digest();
+    }
+
+    std::string digest() const { return StoreReader{open_server_moment(front_, {}, {})}.digest(); }
+
+    std::int64_t move(std::size_t cell, const std::string& to) {
+        ServerConnection boss{boss_};
+        return move_cell(boss, numbers_.at(cell), to);
+    }
+
+    void import(int first, int past) {
+        const auto open = open_server_import(front_);
+        for (int number = first; number < past; ++number) {
+            EXPECT_TRUE(add(*open.trips, number));
+        }
+        fuse_all(*open.trips);
+    }
+
+    std::int64_t number(const std::string& address, const std::string& sql) {
+        return ServerConnection{address}.number(sql);
+    }
+
+    std::filesystem::path folder_ = test_folder();
+    PostgresServer east_server_;
+    PostgresServer server_; // keys and roads are kept there
+    std::string front_ = server_.new_database("front");
+    std::string boss_ = server_.address("front");
+    std::string west_ = server_.new_database("west");
+    std::string east_ = east_server_.new_database("east");
+    std::vector<std::int32_t> numbers_;
+};
+
+TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
+    constexpr int trips = 6;
+    import(0, 2);
+    EXPECT_GT(move(0, west_), 0);
+    EXPECT_GT(move(1, east_), 0);
+    EXPECT_EQ(move(1, east_), 0);
+    import(2, trips);
+
+    const auto drives_in = [&](const std::string& address) {
+        ServerConnection server{address};
+        std::int64_t drives = 0;
+        for (const auto& row : server.rows("SELECT relname FROM pg_class WHERE relkind = 'r'"
+                                           " AND relname ~ '^drive_\\d+_\\d+$'")) {
+            drives += server.number("SELECT count(*) FROM macadam." + *row[0]);
+        }
+        return drives;
+    };
+    EXPECT_EQ(drives_in(west_), 4 * trips); // two roads, both ways
+    EXPECT_EQ(drives_in(east_), 2 * trips);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.unfinished"), 0);
+    EXPECT_EQ(digest(), digest_of_file(trips));
+    const auto copy = copy_from_server(front_, folder_ / "back.gpkg", {});
+    EXPECT_EQ(copy.digest, digest());
+    ServerConnection boss{boss_};
+    const auto cells = cells_of(boss);
+    EXPECT_THAT(cells.at(0).connection, HasSubstr("dbname='west'"));
+    EXPECT_THAT(cells.at(1).connection, HasSubstr("dbname='east'"));
+
+    EXPECT_GT(move(0, boss_), 0); // and back
+    EXPECT_EQ(digest(), copy.digest);
+    EXPECT_EQ(drives_in(west_), 0);
+}
+
+TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
+    constexpr int trips = 24;
+    move(0, west_);
+    move(1, west_);
+    const auto third = east_server_.new_database("third");
+    std::atomic<bool> is_importing = true;
+    std::vector<std::future<void>> importers;
+    for (int importer = 0; importer < 2; ++importer) {
+        importers.push_back(std::async(std::launch::async, [&, importer] {
+            const auto open = open_server_import(front_);
+            for (int number = importer; number < trips; number += 2) {
+                EXPECT_TRUE(add(*open.trips, number));
+                fuse_all(*open.trips);
+            }
+        }));
+    }
+    auto reading = std::async(std::launch::async, [&] {
+        for (int read = 0; is_importing; ++read) { // each copy proves its digest
+            copy_from_server(front_, folder_ / ("read" + std::to_string(read) + ".gpkg"), {});
+        }
+    });
+    EXPECT_GT(move(1, east_), 0);
+    EXPECT_GT(move(0, third), 0);
+    EXPECT_GT(move(1, west_), 0);
+    for (auto& importer : importers) {
+        importer.get();
+    }
+    is_importing = false;
+    reading.get();
+    import(trips, trips);
+    EXPECT_EQ(digest(), digest_of_file(trips));
+}
+
+TEST_F(Cells, HaveEachTripOnceThoughImportersAndServersAreKilled) {
+    constexpr int trips = 40, kills = 6;
+    const auto expected = digest_of_file(trips);
+    move(0, west_);
+    move(1, east_);
+    std::mt19937 random{22};
+    const auto import_until_killed = [&] { // starts a process that imports what is missing
+        const auto child = fork();
+        if (child == 0) {
+            try {
+                const auto open = open_server_import(front_);
+                for (int number = 0; number < trips; ++number) {
+                    if (!open.trips->contains_trip(trip_record(number).sha256)) {
+                        add(*open.trips, number);
+                    }
+                    if (number % 4 == 0) {
+                        fuse_all(*open.trips);
+                    }
+                }
+            } catch (const std::exception&) {
+                _exit(1); // a server is gone
+            }
+            _exit(0);
+        }
+        return child;
+    };
+    int ended_alone = 0;
+    for (int kill_number = 0; kill_number < kills; ++kill_number) {
+        const auto child = import_until_killed();
+        ASSERT_GT(child, 0);
+        std::this_thread::sleep_for(std::chrono::milliseconds{60 + random() % 250});
+        if (kill_number % 3 == 0) {
+            kill(child, SIGKILL);
+        } else {
+            (kill_number % 3 == 1 ? east_server_ : server_).kill_and_restart();
+        }
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        ended_alone += WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 1 : 0;
+    }
+    EXPECT_LT(ended_alone, kills) << "no kill met an import";
+    const auto open = open_server_import(front_);
+    for (int number = 0; number < trips; ++number) {
+        add(*open.trips, number); // again: what is there stays
+    }
+    fuse_all(*open.trips);
+    EXPECT_EQ(digest(), expected);
+
+    // What the kills left on the servers goes with the next import.
+    ServerConnection{boss_}.run("UPDATE macadam.unfinished SET at = at - interval '1 hour'");
+    ServerConnection front{front_};
+    remove_unfinished(front);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.unfinished"), 0);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 6 * trips);
+    EXPECT_EQ(digest(), expected);
+}
+
+TEST_F(Cells, CountDrivesOnlyOfTripsThatTheFrontHas) {
+    import(0, 2);
+    move(1, east_);
+    const auto before = digest();
+    ServerConnection front{front_};
+    front.run("INSERT INTO macadam.drive SELECT cell, chunk, 1000, drive, passes, body, first_m,"
+              " place_sd_mm, iri, iri_left FROM macadam.drive WHERE trip = 1 AND cell ="
+              " (SELECT cell FROM macadam.cell_place);"
+              "INSERT INTO macadam.unfinished VALUES (1000, now() - interval '1 hour');"
+              "INSERT INTO macadam.chunk_dirty SELECT DISTINCT chunk, 1, 0 FROM macadam.drive");
+    fuse_all(*open_server_import(front_).trips);
+    EXPECT_EQ(digest(), before);
+    EXPECT_EQ(copy_from_server(front_, folder_ / "copy.gpkg", {}).digest, before);
+    open_server_import(front_).trips->begin_import("next", 0);
+    EXPECT_EQ(front.number("SELECT count(*) FROM macadam.drive WHERE trip = 1000"), 0);
+    EXPECT_EQ(front.number("SELECT count(*) FROM macadam.unfinished"), 0);
+}
+
+TEST_F(Cells, SwitchToAGenerationThatIsPreparedEverywhere) {
+    import(0, 6);
+    move(0, west_);
+    move(1, east_);
+    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+    import_into(file, 0, 6);
+    const auto before = digest();
+    ASSERT_EQ(before, file.digest());
+    const std::vector<SegmentKey> resurfaced{{1, true, 2}, {2, false, 9}, {3, true, 5}};
+    const auto maintain = [&](RoadStore store) {
+        store.maintenance.set_valid_from(resurfaced, 1'765'000'000'000, {});
+    };
+
+    // One server takes no commit: nothing changes on any.
+    ServerConnection east{east_};
+    east.run("CREATE FUNCTION macadam.refuse() RETURNS trigger LANGUAGE plpgsql AS"
+             " $$ BEGIN IF current_setting('application_name') = 'postgres_fdw' THEN"
+             " RAISE EXCEPTION 'no room'; END IF; RETURN NULL; END $$;"
+             "CREATE FUNCTION macadam.refuse_commits() RETURNS event_trigger LANGUAGE plpgsql AS"
+             " $$ DECLARE t text; BEGIN FOR t IN SELECT object_identity FROM"
+             " pg_event_trigger_ddl_commands() WHERE object_identity ~ 'segment_state_' AND"
+             " object_type = 'table' LOOP EXECUTE format('CREATE CONSTRAINT TRIGGER refuse AFTER"
+             " DELETE OR INSERT ON %s DEFERRABLE INITIALLY DEFERRED FOR EACH ROW EXECUTE FUNCTION"
+             " macadam.refuse()', t); END LOOP; END $$");
+    ServerConnection{east_server_.address("east")}.run(
+        "CREATE EVENT TRIGGER refuse_commits ON ddl_command_end WHEN TAG IN ('CREATE TABLE')"
+        " EXECUTE FUNCTION macadam.refuse_commits()");
+    EXPECT_THAT(refusal_of([&] { maintain(RoadStore{open_server_replica(front_, {}, {})}); }),
+                HasSubstr("no room"));
+    EXPECT_EQ(digest(), before);
+    ServerConnection{east_server_.address("east")}.run("DROP EVENT TRIGGER refuse_commits");
+
+    maintain(RoadStore{open_server_replica(front_, {}, {})});
+    maintain(file);
+    EXPECT_NE(digest(), before);
+    EXPECT_EQ(digest(), file.digest());
+    for (const auto& address : {west_, east_}) { // what was replaced is gone
+        EXPECT_EQ(number(address,
+                         "SELECT count(*) FROM pg_class WHERE relkind = 'r' AND relname ~"
+                         " '^(drive|segment_state)_\\d+_\\d+$'"),
+                  2);
+    }
+    import(6, 8);
+    import_into(file, 6, 8);
+    EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(Cells, AreMovedByThoseOnlyWhoMay) {
+    const auto refusal = [&](const std::string& by, std::int32_t cell, const std::string& to) {
+        return refusal_of([&] {
+            ServerConnection front{by};
+            move_cell(front, cell, to);
+        });
+    };
+    EXPECT_THAT(refusal(front_, numbers_.at(0), west_),
+                HasSubstr("only a superuser of this server adds another one"));
+    EXPECT_THAT(refusal(front_, 3, west_), HasSubstr("has no cell 3"));
+    EXPECT_THAT(refusal(boss_, numbers_.at(0), front_), HasSubstr("already has a schema macadam"));
+    move(0, west_);
+    ServerConnection owner{front_};
+    move_cell(owner, numbers_.at(1), west_); // known by now
+    EXPECT_THAT(cells_of(owner).at(1).connection, HasSubstr("dbname='west'"));
+}
+
+} // namespace
+} // namespace macadam::testing
