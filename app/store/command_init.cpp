@@ -234,6 +234,11 @@ BackgroundSource background_of(const std::filesystem::path& map,
                 map.string(),
                 counted(count, "object")));
         }
+        if (left_out.has_broken_coast) {
+            console.warn(fmt::format("{}: background without the sea: coastlines end in the middle "
+                                     "of the map, lack points or contradict each other",
+                                     map.string()));
+        }
     };
 }
 

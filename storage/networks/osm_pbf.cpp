@@ -20,7 +20,8 @@ using Bytes = std::string_view;
 
 // Source of tags and types: OSM wiki, page PBF Format; osmformat.proto.
 
-enum class HeaderBlock : protozero::pbf_tag_type { required_features = 4 };
+enum class HeaderBlock : protozero::pbf_tag_type { bounds = 1, required_features = 4 };
+enum class Bounds : protozero::pbf_tag_type { west = 1, east = 2, north = 3, south = 4 };
 enum class Block : protozero::pbf_tag_type {
     string_table = 1,
     group = 2,
@@ -40,9 +41,38 @@ enum class Members : protozero::pbf_tag_type { roles = 8, ids = 9, types = 10 };
     throw InputError{what};
 }
 
-void expect_known_features(Bytes bytes) {
+GeoBox read_bounds(Bytes bytes) {
+    constexpr double nano_per_deg = 1e9;
+    auto bounds = pbf_message<Bounds>(bytes);
+    GeoBox box;
+    while (bounds.next()) {
+        switch (bounds.tag_and_type()) {
+        case number_field(Bounds::west):
+            box.west_deg = double(bounds.get_sint64()) / nano_per_deg;
+            break;
+        case number_field(Bounds::east):
+            box.east_deg = double(bounds.get_sint64()) / nano_per_deg;
+            break;
+        case number_field(Bounds::north):
+            box.north_deg = double(bounds.get_sint64()) / nano_per_deg;
+            break;
+        case number_field(Bounds::south):
+            box.south_deg = double(bounds.get_sint64()) / nano_per_deg;
+            break;
+        default:
+            bounds.skip();
+        }
+    }
+    return box;
+}
+
+void read_header(Bytes bytes, const OsmVisitor& visitor) {
     auto header = pbf_message<HeaderBlock>(bytes);
     while (header.next()) {
+        if (header.tag_and_type() == bytes_field(HeaderBlock::bounds)) {
+            give_bounds(visitor, read_bounds(bytes_of(header.get_view())));
+            continue;
+        }
         if (header.tag_and_type() != bytes_field(HeaderBlock::required_features)) {
             header.skip();
             continue;
@@ -422,7 +452,7 @@ void visit_osm_pbf(const std::filesystem::path& file, const OsmVisitor& visitor)
             fail("its first blob is not a map header");
         }
         if (blob->type == "OSMHeader") {
-            expect_known_features(blob->content);
+            read_header(blob->content, visitor);
             has_header = true;
         } else if (blob->type == "OSMData") {
             reader.read(blob->content);

@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -110,6 +111,8 @@ private:
             expect_root(name, attributes);
         } else if (name == "delete") {
             deleting_ = true;
+        } else if (name == "bounds") {
+            read_bounds(attributes);
         } else if (name == "node" || name == "way" || name == "relation") {
             open_ = name == "node" ? Open::node : name == "way" ? Open::way : Open::relation;
             id_ = id_in(attribute(attributes, "id"));
@@ -148,6 +151,15 @@ private:
                 fmt::format("an id is '{}', expected a whole number", text == nullptr ? "" : text)};
         }
         return *id;
+    }
+
+    void read_bounds(const XML_Char** attributes) const {
+        const auto side = [&](std::string_view name) {
+            const char* const text = attribute(attributes, name);
+            const auto deg = text == nullptr ? std::nullopt : exact_number<double>(text);
+            return deg.value_or(std::numeric_limits<double>::quiet_NaN());
+        };
+        give_bounds(visitor_, {side("minlon"), side("minlat"), side("maxlon"), side("maxlat")});
     }
 
     void read_node(const XML_Char** attributes) {

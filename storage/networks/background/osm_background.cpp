@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/networks/background/area_assembly.hpp"
 #include "storage/networks/background/osm_background_tags.hpp"
+#include "storage/networks/background/sea_assembly.hpp"
 #include "storage/networks/osm_objects.hpp"
 #include "storage/networks/osm_reader.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <string>
@@ -22,6 +24,7 @@ namespace {
 
 constexpr std::size_t max_area_points = 50'000; // twice the shore of the largest lakes in OSM
 constexpr std::size_t max_text_bytes = 255;
+constexpr std::size_t max_coast_points = 8'000'000; // those of Norway are half of these
 
 /// Multipolygon of a kind that is shown.
 struct Relation {
@@ -29,11 +32,12 @@ struct Relation {
     std::vector<std::int64_t> ways;
 };
 
-/// Way that is a line or an area by itself, a part of multipolygons, or both.
+/// Way that is a line or an area by itself, a part of multipolygons, a coastline, or several.
 struct ShownWay {
     std::int64_t id;
     std::optional<BackgroundKind> kind;
     bool is_part; ///< of a multipolygon
+    bool is_coast;
     std::vector<std::int64_t> nodes;
 };
 
@@ -68,6 +72,9 @@ public:
             read_positions(first);
             give_lines_and_areas();
             give_multipolygons();
+            if (first) {
+                give_sea();
+            }
         }
         return left_out_;
     }
@@ -142,13 +149,17 @@ private:
                        }
                        const bool is_part =
                            first && std::binary_search(parts_.begin(), parts_.end(), id);
+                       const bool is_coast = first && is_coastline(tags) && nodes.size() > 1;
+                       coast_points_ += is_coast ? nodes.size() : 0;
                        if (first) {
                            give_road_ref(id, tags);
                        }
                        if ((kind || is_part) && nodes.size() > max_area_points) {
                            ++left_out_.too_long;
-                       } else if (kind || is_part) {
-                           ways_.push_back({id, kind, is_part, {nodes.begin(), nodes.end()}});
+                       } else if (kind || is_part ||
+                                  (is_coast && coast_points_ <= max_coast_points)) {
+                           ways_.push_back(
+                               {id, kind, is_part, is_coast, {nodes.begin(), nodes.end()}});
                        }
                    },
                .relation = {},
@@ -181,6 +192,11 @@ private:
             .relation = {},
             .pace = {}};
         if (with_places) {
+            visitor.bounds = [&](const GeoBox& box) { bounds_ = box; };
+            visitor.node = [&](std::int64_t id, const PackedPoint& at) {
+                positions.see(id, at);
+                around_nodes_ = including(around_nodes_, Unpacked{}(at));
+            };
             visitor.tagged_node = [&](const OsmTags& tags, const PackedPoint& at) {
                 give_place(tags, at);
             };
@@ -198,13 +214,17 @@ private:
         }
     }
 
+    PackedPoint position_of(std::int64_t node) const {
+        const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
+        return positions_[static_cast<std::size_t>(at)];
+    }
+
     /// Way with the positions of its nodes; `std::nullopt` if one is missing.
     std::optional<PlacedWay> placed(const ShownWay& way) const {
         PlacedWay found{way.id, way.nodes, {}};
         found.points.reserve(way.nodes.size());
         for (const auto node : way.nodes) {
-            const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
-            const auto& position = positions_[static_cast<std::size_t>(at)];
+            const auto position = position_of(node);
             if (position == NodePositions::nowhere) {
                 return std::nullopt;
             }
@@ -294,6 +314,36 @@ private:
         give_area(relation.kind, parts);
     }
 
+    /// Gives the sea within the bounds that the file states, or else around its nodes.
+    void give_sea() {
+        std::vector<PlacedWay> coast;
+        for (const auto& way : ways_) {
+            if (way.is_coast) {
+                auto& line = coast.emplace_back(PlacedWay{way.id, way.nodes, {}});
+                std::ranges::transform(way.nodes,
+                                       std::back_inserter(line.points),
+                                       [&](std::int64_t node) { return position_of(node); });
+            }
+        }
+        if (coast_points_ > max_coast_points) {
+            left_out_.has_broken_coast = true;
+            return;
+        }
+        constexpr double margin_m = 3000; // to the edge of the outermost tiles
+        const auto room = grown(box_, margin_m);
+        const auto bounds = bounds_.value_or(around_nodes_);
+        auto sea = assemble_sea(coast,
+                                {std::max(bounds.west_deg, room.west_deg),
+                                 std::max(bounds.south_deg, room.south_deg),
+                                 std::min(bounds.east_deg, room.east_deg),
+                                 std::min(bounds.north_deg, room.north_deg)},
+                                room);
+        left_out_.has_broken_coast = sea.is_broken;
+        for (auto& rings : sea.areas) {
+            sink_.feature({BackgroundKind::water, std::move(rings)});
+        }
+    }
+
     const std::filesystem::path& file_;
     const GeoBox& box_;
     const BackgroundSink& sink_;
@@ -307,6 +357,9 @@ private:
     std::vector<std::int64_t> parts_; ///< ids of the ways of multipolygons, rising
     std::size_t points_assembled_ = 0;
     double pairs_of_long_rings_ = 0; ///< of nodes, in rings of one way
+    std::size_t coast_points_ = 0;
+    std::optional<GeoBox> bounds_; ///< that the file states
+    GeoBox around_nodes_;
 
     // Ways of the current round.
     std::size_t done_ = 0; ///< ways with a kind of all rounds before

@@ -77,6 +77,10 @@ std::optional<BackgroundKind> line_kind_of(const OsmTags& tags) {
     return std::nullopt;
 }
 
+bool is_coastline(const OsmTags& tags) {
+    return value(tags, "natural") == "coastline";
+}
+
 bool is_multipolygon(const OsmTags& tags) {
     return value(tags, "type") == "multipolygon";
 }

@@ -16,6 +16,9 @@ std::optional<BackgroundKind> area_kind_of(const OsmTags& tags);
 /// underground railways are not.
 std::optional<BackgroundKind> line_kind_of(const OsmTags& tags);
 
+/// Tests for ways between land, on their left, and sea.
+bool is_coastline(const OsmTags& tags);
+
 /// Tests for relations whose ways are the rings of an area.
 bool is_multipolygon(const OsmTags& tags);
 

@@ -228,6 +228,25 @@ TEST(OsmBackground, BoundsTheSearchForCrossingsInLongRings) {
     EXPECT_EQ(found.left_out.too_long, 3U);
 }
 
+TEST(OsmBackground, MakesTheSeaOfCoastlinesWithinTheBoundsThatTheFileStates) {
+    OsmText text;
+    text.nodes = "<bounds minlat='47' minlon='9' maxlat='48' maxlon='10'/>";
+    text.way(1, {text.node(47.5, 9.0002), text.node(47.5, 9.9997)}, tag("natural", "coastline"));
+    text.node(46, 8); // afar
+    const auto found = read(text, {9, 47, 10, 48});
+    ASSERT_THAT(found.features, SizeIs(1));
+    EXPECT_EQ(found.features[0].kind, BackgroundKind::water);
+    const auto& ring = found.features[0].paths[0];
+    EXPECT_EQ(std::ranges::max(ring, {}, &PackedPoint::lat_e7).lat_e7, 475'000'000);
+    EXPECT_LT(std::ranges::min(ring, {}, &PackedPoint::lat_e7).lat_e7, 470'000'000);
+    EXPECT_FALSE(found.left_out.has_broken_coast);
+
+    text.way(2, {text.node(47.7, 9.5), text.node(47.7, 9.6)}, tag("natural", "coastline"));
+    const auto broken = read(text, {9, 47, 10, 48});
+    EXPECT_THAT(broken.features, IsEmpty());
+    EXPECT_TRUE(broken.left_out.has_broken_coast);
+}
+
 TEST(OsmBackground, IsTheSameHoweverFewPointsAreHeldAtATime) {
     OsmText text;
     for (int id = 1; id <= 9; ++id) {
