@@ -117,7 +117,7 @@ MapPlan load_change_map(const StoreReader& store, MapRequest request, std::int64
     set_words(request.style.words, day);
     request.style.classes = &change_classes();
     request.style.ramp = MapStyle{}.ramp; // diverging, safe for colour-blind readers
-    request.style.own_ramp.clear();
+    request.style.own_ramp = {0x2c7bb6, 0xf7f7f7, 0xd7191c}; // the middle is neutral
     const auto compared = [&](const SegmentFilter& filter) {
         auto states = compare_since(store, roads, filter, since_ms);
         if (states.before.empty() && states.since.empty()) {

@@ -120,6 +120,7 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .projection = projection_of(options.output),
                              .base = base.map,
                              .size = options.output.size,
+                             .other_sizes = options.output.other_sizes,
                              .events =
                                  options.events && can_show_events(store, options.filter, console),
                              .background = options.background};

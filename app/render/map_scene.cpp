@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -23,12 +24,34 @@ namespace {
 
 constexpr double margin_share = 0.02; // of the driven extent, to keep roads off the frame
 constexpr double min_margin_m = 50;
+constexpr double max_lat_deg = 85;
+constexpr double min_shape = 0.25; // of the shorter side, relative to the longer
 constexpr double certain_sd = 0.5; // relative; above it the line has a narrower core
 
+/// Returns the box with ground around it: a single road gets some on both sides.
 GeoBox box_with_margin(const GeoBox& box) {
     const double diagonal_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
-    return grown(box, std::max(min_margin_m, margin_share * diagonal_m));
+    auto around = grown(box, std::max(min_margin_m, margin_share * diagonal_m));
+    const GeoPoint middle{(around.south_deg + around.north_deg) / 2,
+                          (around.west_deg + around.east_deg) / 2};
+    const double width_m =
+        distance_m({middle.lat_deg, around.west_deg}, {middle.lat_deg, around.east_deg});
+    const double height_m =
+        distance_m({around.south_deg, middle.lon_deg}, {around.north_deg, middle.lon_deg});
+    const double missing_width = min_shape * height_m / width_m;
+    if (missing_width > 1) {
+        const double half_deg = (around.east_deg - around.west_deg) / 2 * missing_width;
+        around.west_deg = middle.lon_deg - half_deg;
+        around.east_deg = middle.lon_deg + half_deg;
+    }
+    const double missing_height = min_shape * width_m / height_m;
+    const double half_deg = (around.north_deg - around.south_deg) / 2 * missing_height;
+    if (missing_height > 1 && std::abs(middle.lat_deg) + half_deg < max_lat_deg) {
+        around.south_deg = middle.lat_deg - half_deg;
+        around.north_deg = middle.lat_deg + half_deg;
+    }
+    return around;
 }
 
 std::string subtitle_of_empty_map(const StoreReader& store) {
@@ -314,17 +337,26 @@ MapPlan load_map(const StoreReader& store,
     if (selects(filter) && style.words.unmeasured == LegendWords{}.unmeasured) {
         style.words.unmeasured = "Not selected or measured";
     }
-    MapPlan plan{scene_around(store, request), std::move(style), request.size};
+    auto scene = scene_around(store, request);
+    const auto size = size_for(scene, style, request.size, request.other_sizes);
+    MapPlan plan{std::move(scene), std::move(style), size};
     const auto load = [&](const GeoBox& box) {
-        plan.set_roads(
-            lines ? lines(box)
-                  : map_lines(store, box, classes_of(request), request.style.min_passes, filter),
-            request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
-        if (request.background) {
+        const auto& level = plan.background_level();
+        const auto set_background = [&] {
             const StoreBackground background{store};
             plan.set_background({request.base ? std::vector<BackgroundTile>{}
                                               : background.tiles(plan.background_level(), box),
                                  background.places(box)});
+        };
+        if (request.background) {
+            set_background();
+        }
+        plan.set_roads(
+            lines ? lines(box)
+                  : map_lines(store, box, classes_of(request), request.style.min_passes, filter),
+            request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
+        if (request.background && &plan.background_level() != &level) {
+            set_background(); // the legend made the map smaller
         }
     };
     const auto ground = plan.ground();

@@ -54,7 +54,8 @@ struct MapRequest {
     std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
     std::shared_ptr<const BaseMap> base = nullptr;               ///< null: none
     PictureSize size{};
-    bool events = false;    ///< also potholes and other events
+    std::vector<PictureSize> other_sizes{}; ///< for size_for
+    bool events = false;                    ///< also potholes and other events
     bool background = true; ///< water, green and the like, where the database has them
 };
 

@@ -19,6 +19,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -167,6 +168,22 @@ SheetSize pdf_size(const Arguments& arguments) {
     return {px, pdf_px_per_inch};
 }
 
+/// Returns sizes of a picture or a sheet that are taken where `size` would be empty for a third,
+/// unless one is asked for.
+std::vector<PictureSize>
+other_sizes(const Arguments& arguments, Kind kind, const PictureSize& size) {
+    if (arguments.value("--size") || arguments.value("--paper") || arguments.flag("--landscape") ||
+        arguments.flag("--bare")) {
+        return {};
+    }
+    if (kind != Kind::pdf) {
+        return other_shapes(size);
+    }
+    auto turned = size;
+    std::swap(turned.width_px, turned.height_px);
+    return {turned};
+}
+
 Kind kind_of(const std::string& file) {
     if (file.ends_with(".png")) {
         return Kind::png;
@@ -310,12 +327,13 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
                          "--format png or pdf"};
     }
     expect_fitting(arguments, kind);
-    const auto size = kind == Kind::pdf ? pdf_size(arguments) : picture_size(arguments);
+    const auto sheet = kind == Kind::pdf ? pdf_size(arguments) : picture_size(arguments);
+    const PictureSize size{
+        .width_px = sheet.px.width, .height_px = sheet.px.height, .px_per_inch = sheet.px_per_inch};
     return {.file = *file,
             .kind = kind,
-            .size = {.width_px = size.px.width,
-                     .height_px = size.px.height,
-                     .px_per_inch = size.px_per_inch},
+            .size = size,
+            .other_sizes = other_sizes(arguments, kind, size),
             .world_file = arguments.flag("--world-file"),
             .bare = arguments.flag("--bare"),
             .to_standard_output = to_standard_output,

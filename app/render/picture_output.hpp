@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -15,7 +16,9 @@ struct PictureOutput {
     enum class Kind : std::uint8_t { png, geotiff, pdf };
     std::filesystem::path file;
     Kind kind = Kind::png;
-    PictureSize size{};              ///< of the picture or the sheet of paper
+    PictureSize size{}; ///< of the picture or the sheet of paper
+    std::vector<PictureSize>
+        other_sizes{};               ///< that suit other shapes of data, if none is asked for
     bool world_file = false;         ///< georeference beside a .png
     bool bare = false;               ///< map only, up to the edges
     bool to_standard_output = false; ///< instead of the file
@@ -44,7 +47,7 @@ inline constexpr Option picture_size_option =
              {"--size",
               "WxH",
               "Pixels (1600x1200), mm (420x594mm) or a paper (A2); detail follows the scale.",
-              default_picture_size});
+              "1600x1200, or as much in the shape of the data"});
 inline constexpr Option dpi_option = in_group(
     "page",
     {"--dpi", "N", "Pixels per inch of a picture on paper.", "96 with pixels, 300 with paper"});

@@ -113,7 +113,8 @@ Layout layout_of(const MapScene& scene, const PictureSize& size, TypeSetter& set
         add(placed({{line}, credit.look}, {width_px - margin - line_width, y}, true));
         y += credit.look.size_px * line_height;
     }
-    layout.map = {0, std::round(top), double(width_px), bottom};
+    layout.whole_map = {0, std::round(top), double(width_px), bottom};
+    layout.map = layout.whole_map;
     layout.scale_bar = scene.scale_bar;
     layout.edges = !scene.to_the_edge;
     layout.scale_room = {margin, bottom, margin + scale_width, double(height_px)};

@@ -21,7 +21,8 @@ struct Layout {
     double unit = 1;       ///< of title, legend and scale: their sizes are for 1000 px a side
     double paper_unit = 1; ///< of roads and their names: 1/96 inch on paper, px
     double width_px = 0;   ///< of the sheet
-    PixelBox map;
+    PixelBox whole_map;    ///< between header and footer
+    PixelBox map;          ///< the same without a band for the legend
     std::vector<PositionedText> texts;
     PixelBox scale_room; ///< area of north arrow and scale bar
     bool scale_bar = true;

@@ -329,7 +329,7 @@ legend_band(const MapScene& scene, const Legend& legend, const Layout& layout, T
     if (room.width() - scale * data.width_rad >= beside) {
         band.map.right -= beside;
         band.corner = {band.map.right + std::round(margin / 2),
-                       band.map.bottom - std::round(margin / 2) - band.card.height_px};
+                       band.map.top + std::round(margin / 2)};
         band.card.framed = false;
         return band;
     }

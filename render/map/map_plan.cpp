@@ -20,7 +20,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace macadam {
@@ -144,7 +146,7 @@ int rows_of_band(const PictureSize& size) {
 
 MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
     : scene_{std::move(scene)}, style_{std::move(style)}, size_{checked(size)},
-      layout_{layout_of(scene_, size_, setter_)}, whole_map_{layout_.map} {
+      layout_{layout_of(scene_, size_, setter_)} {
     set_roads(std::move(scene_.lines), std::move(scene_.events));
 }
 
@@ -152,14 +154,16 @@ void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events
     scene_.lines = std::move(lines);
     scene_.events = std::move(events);
     const double scale = scale_denominator_of(
-        fitted_frame(scene_.box, whole_map_, scene_.projection.get()), layout_);
+        fitted_frame(scene_.box, layout_.whole_map, scene_.projection.get()), layout_);
     const auto shown = [&](const MapLine& line) { return is_shown(line, scale); };
     if (std::ranges::any_of(scene_.lines, shown)) { // else all, rather than an empty map
         std::erase_if(scene_.lines, std::not_fn(shown));
     }
     const auto legend = legend_of(scene_, style_, classes_of(style_));
-    layout_.map = whole_map_;
-    if (const auto band = legend_band(scene_, legend, layout_, setter_)) {
+    layout_.map = layout_.whole_map;
+    const auto band =
+        background_.tiles.empty() ? legend_band(scene_, legend, layout_, setter_) : std::nullopt;
+    if (band) {
         layout_.map = band->map;
         placement_ = placement_of(scene_, {}, layout_, setter_);
         placement_.card = band->card;
@@ -281,6 +285,42 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
         draw_events(page, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, theme);
         draw_map_surround(page, layout_, placement_, style_, setter_);
     });
+}
+
+std::vector<PictureSize> other_shapes(const PictureSize& size) {
+    const double area_px = double(size.width_px) * size.height_px;
+    std::vector<PictureSize> sizes;
+    for (const double shape : {3.0, 2.0, 1.5, 1.0, 1 / 1.5, 1 / 2.0, 1 / 3.0}) {
+        auto& other = sizes.emplace_back(size);
+        other.width_px = int(std::lround(std::sqrt(area_px * shape)));
+        other.height_px = int(std::lround(std::sqrt(area_px / shape)));
+    }
+    return sizes;
+}
+
+PictureSize size_for(const MapScene& scene,
+                     const MapStyle& style,
+                     const PictureSize& usual,
+                     std::span<const PictureSize> others) {
+    constexpr double much = 1.0 / 3;
+    if (others.empty()) {
+        return usual;
+    }
+    const auto empty = [&](const PictureSize& size) {
+        return MapPlan{scene, style, size}.empty_share();
+    };
+    auto best = usual;
+    double least = empty(usual);
+    if (least < much) {
+        return usual;
+    }
+    for (const auto& other : others) {
+        if (const double share = empty(other); share < least) {
+            least = share;
+            best = other;
+        }
+    }
+    return best;
 }
 
 Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size) {

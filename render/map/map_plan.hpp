@@ -9,6 +9,7 @@
 #include "render/scene/scene.hpp"
 #include "render/text/text_shaping.hpp"
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ struct MapBackground {
 /// the lines on its ground are loaded, beside which it places the legend; then it is drawn:
 ///
 ///     MapPlan plan{scene, style, size};
+///     plan.set_background(load(plan.background_level(), plan.ground()));
 ///     plan.set_roads(load(plan.ground()));
 ///     plan.draw(take);
 class MapPlan {
@@ -39,8 +41,9 @@ public:
     GeoBox ground() const;
 
     /// Sets the roads and the events on them; roads too minor for the map's scale are left out. The
-    /// legend takes a band of the sheet that would be empty, or a corner without roads; if there is
-    /// neither, the map makes room for it and needs the roads of a larger ground.
+    /// legend takes a band of the sheet that would be empty, unless a background is set, or a
+    /// corner without roads; if there is neither, the map makes room for it and needs the roads of
+    /// a larger ground.
     void set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events = {});
 
     /// Returns the level of the background that serves the map's scale.
@@ -48,6 +51,9 @@ public:
 
     /// Sets what lies below the roads of the ground.
     void set_background(MapBackground background);
+
+    /// Returns the share of the sheet without text, legend or data, 0 to 1.
+    double empty_share() const { return macadam::empty_share(scene_, layout_, placement_); }
 
     const MapScene& scene() const { return scene_; }
     const MapStyle& style() const { return style_; }
@@ -82,10 +88,19 @@ private:
     PictureSize size_;
     TypeSetter setter_;
     Layout layout_;
-    PixelBox whole_map_; ///< without a band for the legend
     MapBackground background_;
     Placement placement_;
 };
+
+/// Returns sizes of about the same area, from three times as wide as high to the reverse.
+std::vector<PictureSize> other_shapes(const PictureSize& size);
+
+/// Returns the size for a scene without lines: `usual` if less than a third of the sheet would be
+/// empty, or else that of all which leaves the least empty.
+PictureSize size_for(const MapScene& scene,
+                     const MapStyle& style,
+                     const PictureSize& usual,
+                     std::span<const PictureSize> others);
 
 /// Plans and draws a scene with its lines.
 Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size);

@@ -37,19 +37,28 @@ PixelBox ground_of(const LegendCard& card, const PixelPoint& corner) {
     return inset({corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px}, -air);
 }
 
-/// Counts the road intervals that each corner would hide.
-std::array<std::size_t, 4> hidden_by(const MapScene& scene,
-                                     const MapFrame& frame,
-                                     const LegendCard& card,
-                                     const Corners& corners) {
-    std::array<std::size_t, 4> hidden{};
+using Hidden = std::array<bool, 4>;
+
+/// Tells which corners would hide roads.
+Hidden hides_roads(const MapScene& scene,
+                   const MapFrame& frame,
+                   const LegendCard& card,
+                   const Corners& corners) {
+    std::array<PixelBox, 4> grounds;
+    std::ranges::transform(corners, grounds.begin(), [&](const PixelPoint& corner) {
+        return ground_of(card, corner);
+    });
+    Hidden hidden{};
     for (const auto& line : scene.lines) {
         for (std::size_t i = 0; i + 1 < line.line.size(); ++i) {
             const auto a = to_pixel(frame, line.line[i]);
             const auto b = to_pixel(frame, line.line[i + 1]);
             for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-                hidden[corner] += passes_through(ground_of(card, corners[corner]), a, b) ? 1 : 0;
+                hidden[corner] = hidden[corner] || passes_through(grounds[corner], a, b);
             }
+        }
+        if (std::ranges::find(hidden, false) == hidden.end()) {
+            break;
         }
     }
     return hidden;
@@ -82,12 +91,20 @@ Placement placement_beside_roads(const MapScene& scene,
                                  const MapFrame& frame,
                                  const Layout& layout,
                                  TypeSetter& setter) {
-    const auto card = legend_card(legend, 1, layout.unit, setter);
-    const auto corners = corners_of(layout.map, card);
-    const auto hidden = hidden_by(scene, frame, card, corners);
-    const auto empty = std::ranges::find(hidden, 0U);
-    if (empty != hidden.end()) {
-        return {frame, card, corners[std::size_t(empty - hidden.begin())]};
+    double height_px = layout.map.height();
+    for (int columns = 1; columns <= int(legend.entries.size()); ++columns) {
+        const auto card = legend_card(legend, columns, layout.unit, setter);
+        const double margin = 2 * card_margin_px * layout.unit;
+        if (card.width_px > layout.map.width() - margin || card.height_px >= height_px) {
+            continue;
+        }
+        height_px = card.height_px;
+        const auto corners = corners_of(layout.map, card);
+        const auto hidden = hides_roads(scene, frame, card, corners);
+        const auto* const empty = std::ranges::find(hidden, false);
+        if (empty != hidden.end()) {
+            return {frame, card, corners[std::size_t(empty - hidden.begin())]};
+        }
     }
     return beside_or_below(scene, legend, layout, setter);
 }
@@ -229,6 +246,32 @@ Placement placement_of(const MapScene& scene,
         }
     }
     return best;
+}
+
+double empty_share(const MapScene& scene, const Layout& layout, const Placement& placement) {
+    const double sheet = layout.width_px * layout.scale_room.bottom;
+    const double texts = layout.width_px * (layout.whole_map.top + layout.scale_room.bottom -
+                                            layout.whole_map.bottom);
+    const auto overlap_of = [](const PixelBox& a, const PixelBox& b) {
+        return std::max(0.0, std::min(a.right, b.right) - std::max(a.left, b.left)) *
+               std::max(0.0, std::min(a.bottom, b.bottom) - std::max(a.top, b.top));
+    };
+    const auto extent = plane_extent(scene.box, scene.projection.get());
+    const double half_width = extent.width_rad * placement.frame.px_per_rad / 2;
+    const double half_height = extent.height_rad * placement.frame.px_per_rad / 2;
+    const auto& centre = placement.frame.centre;
+    const PixelBox data{centre.x - half_width,
+                        centre.y - half_height,
+                        centre.x + half_width,
+                        centre.y + half_height};
+    const auto& corner = placement.corner;
+    const PixelBox card{corner.x,
+                        corner.y,
+                        corner.x + placement.card.width_px,
+                        corner.y + placement.card.height_px};
+    const double filled =
+        overlap_of(data, layout.map) + overlap_of(card, layout.whole_map) - overlap_of(card, data);
+    return 1 - (texts + filled) / sheet;
 }
 
 void draw_map_surround(DrawTarget& canvas,

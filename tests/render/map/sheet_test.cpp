@@ -1,0 +1,152 @@
+#include "render/map/legend.hpp"
+#include "render/map/map_plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace macadam::testing {
+namespace {
+
+constexpr PictureSize usual{.width_px = 1600, .height_px = 1200, .px_per_inch = 96};
+constexpr double m_per_deg = 111'195;
+constexpr double cos_lat = 0.669; // at 48 degrees
+
+GeoPoint at(double east_m, double north_m) {
+    return {48 + north_m / m_per_deg, 16 + east_m / m_per_deg / cos_lat};
+}
+
+MapLine street(const GeoPoint& from, const GeoPoint& to) {
+    MapLine line;
+    line.line = {from, to};
+    line.iri_class = 1;
+    return line;
+}
+
+struct Shape {
+    std::string name;
+    MapScene scene;
+};
+
+/// A scene with title and attribution whose box has a width and a height.
+MapScene sheet(double width_m, double height_m) {
+    const auto south_west = at(-width_m / 2, -height_m / 2);
+    const auto north_east = at(width_m / 2, height_m / 2);
+    return {.box = {south_west.lon_deg, south_west.lat_deg, north_east.lon_deg, north_east.lat_deg},
+            .lines = {},
+            .title = "Road roughness",
+            .subtitle = "May to June",
+            .attribution = "© contributors",
+            .class_km = {1, 2, 3}};
+}
+
+/// Streets all over the box.
+Shape filled(const std::string& name, double width_m, double height_m) {
+    std::mt19937 random{3};
+    std::uniform_real_distribution<double> share{-0.5, 0.5};
+    Shape shape{name, sheet(width_m, height_m)};
+    for (int i = 0; i < 400; ++i) {
+        const double east_m = share(random) * width_m;
+        const double north_m = share(random) * height_m;
+        shape.scene.lines.push_back(street(at(east_m, north_m), at(east_m + 40, north_m + 30)));
+    }
+    return shape;
+}
+
+Shape one_road() {
+    Shape shape{"one road",
+                sheet(8000, 2000)}; // with ground on both sides, as the program gives it
+    shape.scene.lines.push_back(street(at(-4000, 0), at(4000, 100)));
+    return shape;
+}
+
+Shape outline_of_a_country() {
+    Shape shape{"outline of a country", sheet(12'000, 25'000)};
+    for (int i = 0; i < 60; ++i) {
+        const auto corner = [](int step) {
+            const double angle = 2 * std::numbers::pi * step / 60;
+            const double r = 1 - 0.15 * (step % 4);
+            return at(6000 * r * std::cos(angle), 12'500 * r * std::sin(angle));
+        };
+        shape.scene.lines.push_back(street(corner(i), corner(i + 1)));
+    }
+    return shape;
+}
+
+Shape empty_region() {
+    Shape shape{"empty region", sheet(3000, 2000)};
+    auto line = street(at(-1500, 0), at(1500, 0));
+    line.iri_class = -1;
+    shape.scene.lines.push_back(line);
+    return shape;
+}
+
+std::vector<Shape> shapes() {
+    return {filled("thin tall", 5000, 20'000),
+            filled("thin wide", 20'000, 5000),
+            filled("square", 6000, 6000),
+            filled("usual", 8000, 6000),
+            one_road(),
+            empty_region(),
+            outline_of_a_country()};
+}
+
+} // namespace
+
+TEST(Sheet, IsNeverEmptyForAThirdInAShapeThatSuitsTheData) {
+    int seen = 0;
+    for (const auto& [name, scene] : shapes()) {
+        auto words = scene;
+        words.lines.clear();
+        const auto size = size_for(words, {}, usual, other_shapes(usual));
+        MapPlan plan{words, {}, size};
+        plan.set_roads(scene.lines);
+        EXPECT_LT(plan.empty_share(), 1.0 / 3)
+            << name << ": " << size.width_px << " x " << size.height_px;
+        EXPECT_NEAR(double(size.width_px) * size.height_px, 1600 * 1200, 3000) << name;
+        ++seen;
+    }
+    EXPECT_EQ(seen, 7);
+}
+
+TEST(Sheet, KeepsItsUsualShapeWhereThatSuitsTheData) {
+    const auto size = size_for(sheet(8000, 6000), {}, usual, other_shapes(usual));
+    EXPECT_EQ(size.width_px, 1600);
+    EXPECT_EQ(size.height_px, 1200);
+    EXPECT_EQ(size_for(sheet(1000, 9000), {}, usual, {}).width_px, 1600); // asked for
+}
+
+TEST(Sheet, BeginsTheBandBesideAThinMapWithTheLegend) {
+    TypeSetter setter;
+    const auto tall = filled("thin tall", 4000, 20'000).scene;
+    const auto layout = layout_of(tall, usual, setter);
+    const auto band = legend_band(tall, legend_of(tall, {}, classes_of({})), layout, setter);
+    ASSERT_TRUE(band);
+    EXPECT_GE(band->corner.x, band->map.right);
+    EXPECT_LT(band->corner.y, layout.map.top + 30);
+}
+
+TEST(Sheet, PutsTheLegendOnFreeGroundWhereABackgroundRunsOn) {
+    const auto tall = filled("thin tall", 4000, 20'000).scene;
+    MapPlan plan{tall, {}, usual};
+    const auto band_x = plan.place().left; // of the map beside the band
+    plan.set_background({{BackgroundTile{{14, 8920, 5690}, {}}}, {}});
+    plan.set_roads(tall.lines);
+    EXPECT_LT(plan.place().left, band_x); // the map takes the whole width again
+}
+
+TEST(Sheet, PutsAWideLegendWhereOnlyAFlatStripIsFree) {
+    TypeSetter setter;
+    const auto wide = filled("strip below", 8000, 4200).scene; // leaves 116 px above and below
+    const auto layout = layout_of(wide, usual, setter);
+    const auto legend = legend_of(wide, {}, classes_of({}));
+    const auto placement = placement_of(wide, legend, layout, setter);
+    EXPECT_GT(placement.card.columns, 1);
+    const auto without = placement_of(wide, {}, layout, setter);
+    EXPECT_EQ(placement.frame.px_per_rad, without.frame.px_per_rad); // no smaller map
+}
+
+} // namespace macadam::testing
