@@ -16,6 +16,7 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <future>
@@ -30,29 +31,45 @@
 namespace macadam::testing {
 namespace {
 
-using ::testing::ElementsAre;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t ways = 3;
+constexpr std::int64_t ways = 7;
 
-/// Three roads of 200 m in a row towards the east: before the border of two map tiles of zoom 8,
-/// across it, and behind it.
+/// Seven roads of 200 m in a row around the corner of four map tiles of zoom 8, three of them
+/// across a border:
+///
+///     8--7 : 6--5
+///     ... .:... |
+///     1--2-:-3--4
 RoadNetwork border_country() {
-    constexpr double border_deg = 3 * 360.0 / 256, length_deg = 200.2 / 77'640;
+    constexpr double lat_deg = 46.073230625408644, lon_deg = 3 * 360.0 / 256;
+    constexpr double high_deg = 200.2 / 111'195, wide_deg = high_deg / 0.693;
+    const auto at = [&](double x, double y) {
+        return GeoPoint{lat_deg + y * high_deg, lon_deg + x * wide_deg};
+    };
+    const std::vector<GeoPoint> corners{at(-1.5, -0.5),
+                                        at(-0.5, -0.5),
+                                        at(0.5, -0.5),
+                                        at(1.5, -0.5),
+                                        at(1.5, 0.5),
+                                        at(0.5, 0.5),
+                                        at(-0.5, 0.5),
+                                        at(-1.5, 0.5)};
     std::vector<Way> roads;
     for (std::int64_t number = 1; number <= ways; ++number) {
-        const double west_deg = border_deg + (static_cast<double>(number) - 2.5) * length_deg;
+        const auto first = corners.begin() + (number - 1);
         Way way{.id = number,
                 .name = "",
                 .highway = "residential",
                 .node_ids = {number, number + 1},
-                .line = {{45.7, west_deg}, {45.7, west_deg + length_deg}}};
+                .line = {first[0], first[1]}};
         roads.push_back(way);
     }
     return build_network(std::move(roads), 20);
 }
 
-/// Trip over all three roads, there and back.
+/// Trip over all roads, there and back.
 struct BorderTrip {
     explicit BorderTrip(int number) : record{RichTrip{number}.record} {
         const RichTrip one{number};
@@ -104,7 +121,7 @@ protected:
         for (const auto& cell : cells_of(boss)) {
             numbers_.push_back(cell.number);
         }
-        ASSERT_EQ(numbers_.size(), 2U);
+        ASSERT_EQ(numbers_.size(), 4U);
     }
 
     std::string digest_of_file(int trips) {
@@ -120,6 +137,13 @@ protected:
         return move_cell(boss, numbers_.at(cell), to);
     }
 
+    /// Moves the western cells to one server, the eastern ones to the other.
+    void spread() {
+        for (std::size_t cell = 0; cell < numbers_.size(); ++cell) {
+            move(cell, cell % 2 == 0 ? west_ : east_);
+        }
+    }
+
     void import(int first, int past) {
         const auto open = open_server_import(front_);
         for (int number = first; number < past; ++number) {
@@ -132,22 +156,28 @@ protected:
         return ServerConnection{address}.number(sql);
     }
 
+    /// The address as clients of a cluster have it, whose first server is down.
+    static std::string with_a_standby(std::string address) {
+        return address.replace(
+            address.find("?host="), 6, "?target_session_attrs=read-write&host=/nowhere,");
+    }
+
     std::filesystem::path folder_ = test_folder();
     PostgresServer east_server_;
     PostgresServer server_; // keys and roads are kept there
     std::string front_ = server_.new_database("front");
     std::string boss_ = server_.address("front");
-    std::string west_ = server_.new_database("west");
+    std::string west_ = with_a_standby(server_.new_database("west"));
     std::string east_ = east_server_.new_database("east");
-    std::vector<std::int32_t> numbers_;
+    std::vector<std::int32_t> numbers_; ///< north-west, north-east, south-west, south-east
 };
 
 TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
     constexpr int trips = 6;
     import(0, 2);
-    EXPECT_GT(move(0, west_), 0);
     EXPECT_GT(move(1, east_), 0);
     EXPECT_EQ(move(1, east_), 0);
+    spread();
     import(2, trips);
 
     const auto drives_in = [&](const std::string& address) {
@@ -159,8 +189,8 @@ TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
         }
         return drives;
     };
-    EXPECT_EQ(drives_in(west_), 4 * trips); // two roads, both ways
-    EXPECT_EQ(drives_in(east_), 2 * trips);
+    EXPECT_EQ(drives_in(west_), 6 * trips); // three roads, both ways
+    EXPECT_EQ(drives_in(east_), 8 * trips);
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.unfinished"), 0);
     EXPECT_EQ(digest(), digest_of_file(trips));
     const auto copy = copy_from_server(front_, folder_ / "back.gpkg", {});
@@ -172,14 +202,14 @@ TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
 
     EXPECT_GT(move(0, boss_), 0); // and back
     EXPECT_EQ(digest(), copy.digest);
-    EXPECT_EQ(drives_in(west_), 0);
+    EXPECT_EQ(drives_in(west_), 4 * trips);
 }
 
 TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
     constexpr int trips = 24;
-    move(0, west_);
-    move(1, west_);
-    const auto third = east_server_.new_database("third");
+    spread();
+    const auto third = server_.new_database("third");
+    const auto fourth = east_server_.new_database("fourth");
     std::atomic<bool> is_importing = true;
     std::vector<std::future<void>> importers;
     for (int importer = 0; importer < 2; ++importer) {
@@ -196,9 +226,10 @@ TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
             copy_from_server(front_, folder_ / ("read" + std::to_string(read) + ".gpkg"), {});
         }
     });
-    EXPECT_GT(move(1, east_), 0);
-    EXPECT_GT(move(0, third), 0);
-    EXPECT_GT(move(1, west_), 0);
+    move(0, third);
+    move(1, fourth);
+    EXPECT_GT(move(2, third), 0);
+    EXPECT_GT(move(2, west_), 0);
     for (auto& importer : importers) {
         importer.get();
     }
@@ -211,8 +242,7 @@ TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
 TEST_F(Cells, HaveEachTripOnceThoughImportersAndServersAreKilled) {
     constexpr int trips = 40, kills = 6;
     const auto expected = digest_of_file(trips);
-    move(0, west_);
-    move(1, east_);
+    spread();
     std::mt19937 random{22};
     const auto import_until_killed = [&] { // starts a process that imports what is missing
         const auto child = fork();
@@ -261,7 +291,7 @@ TEST_F(Cells, HaveEachTripOnceThoughImportersAndServersAreKilled) {
     ServerConnection front{front_};
     remove_unfinished(front);
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.unfinished"), 0);
-    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 6 * trips);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 2 * ways * trips);
     EXPECT_EQ(digest(), expected);
 }
 
@@ -283,15 +313,40 @@ TEST_F(Cells, CountDrivesOnlyOfTripsThatTheFrontHas) {
     EXPECT_EQ(front.number("SELECT count(*) FROM macadam.unfinished"), 0);
 }
 
+TEST_F(Cells, SayThatATripIsInDoubtUntilTheStandbyOfACellHasIt) {
+    move(3, east_);
+    ServerConnection east{east_server_.address("east")};
+    east.run("ALTER SYSTEM SET synchronous_standby_names = 'nobody'");
+    east.run("SELECT pg_reload_conf()");
+    std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    const auto open = open_server_import(front_);
+    auto first =
+        std::async(std::launch::async, [&] { return refusal_of([&] { add(*open.trips, 0); }); });
+    const std::string waiting = " FROM pg_stat_activity WHERE wait_event = 'SyncRep'";
+    for (int i = 0; i < 3000 && east.number("SELECT count(*)" + waiting) == 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    EXPECT_EQ(east.number("SELECT count(pg_cancel_backend(pid))" + waiting), 1);
+    EXPECT_THAT(
+        first.get(),
+        AllOf(HasSubstr("a server of its cells warns"), HasSubstr("run the command again")));
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.trip"), 0);
+    east.run("ALTER SYSTEM RESET synchronous_standby_names");
+    east.run("SELECT pg_reload_conf()");
+    std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    EXPECT_TRUE(add(*open.trips, 0));
+    fuse_all(*open.trips);
+    EXPECT_EQ(digest(), digest_of_file(1));
+}
+
 TEST_F(Cells, SwitchToAGenerationThatIsPreparedEverywhere) {
     import(0, 6);
-    move(0, west_);
-    move(1, east_);
+    spread();
     auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
     import_into(file, 0, 6);
     const auto before = digest();
     ASSERT_EQ(before, file.digest());
-    const std::vector<SegmentKey> resurfaced{{1, true, 2}, {2, false, 9}, {3, true, 5}};
+    const std::vector<SegmentKey> resurfaced{{1, true, 2}, {2, false, 9}, {6, true, 5}};
     const auto maintain = [&](RoadStore store) {
         store.maintenance.set_valid_from(resurfaced, 1'765'000'000'000, {});
     };
@@ -323,7 +378,7 @@ TEST_F(Cells, SwitchToAGenerationThatIsPreparedEverywhere) {
         EXPECT_EQ(number(address,
                          "SELECT count(*) FROM pg_class WHERE relkind = 'r' AND relname ~"
                          " '^(drive|segment_state)_\\d+_\\d+$'"),
-                  2);
+                  4);
     }
     import(6, 8);
     import_into(file, 6, 8);
