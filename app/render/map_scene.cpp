@@ -5,6 +5,7 @@
 #include "app/database/selection.hpp"
 #include "app/render/base_map_option.hpp"
 #include "app/render/box_visit.hpp"
+#include "app/render/line_collector.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/store/reader/store_background.hpp"
 #include "storage/text/unit_system.hpp"
@@ -213,37 +214,18 @@ void expect_roads(const MapScene& scene) {
     }
 }
 
-using SelectedStates = std::map<SegmentKey, SegmentState>;
+using SelectedStates = std::map<SegmentKey, SegmentSummary::Roughness>;
 
 /// Returns the states of the selected segments in a box.
 SelectedStates
 selected_states(const StoreReader& store, const SegmentFilter& filter, const GeoBox& box) {
     SelectedStates states;
     visit_box(store, filter, box, [&](const SegmentRecord& record) {
-        states.emplace(record.segment.key, *record.state);
+        const auto& state = *record.state;
+        states.emplace(record.segment.key,
+                       SegmentSummary::Roughness{state.iri_um, state.sd_um, state.passes});
     });
     return states;
-}
-
-struct DrawnSegment {
-    std::int64_t way_id;
-    std::uint32_t index;
-    std::size_t line;
-};
-
-/// Marks roads with segments in both directions. A road driven one way only is still two-way if the
-/// map allows both.
-void pair_directions(std::vector<MapLine>& lines, std::vector<DrawnSegment> drawn) {
-    const auto key = [](const DrawnSegment& segment) {
-        return std::pair{segment.way_id, segment.index};
-    };
-    std::ranges::sort(drawn, {}, key);
-    for (std::size_t i = 1; i < drawn.size(); ++i) {
-        if (key(drawn[i]) == key(drawn[i - 1])) {
-            lines[drawn[i].line].both_ways = true;
-            lines[drawn[i - 1].line].both_ways = true;
-        }
-    }
 }
 
 } // namespace
@@ -284,48 +266,56 @@ bool is_certain(IriUm iri_um, IriUm sd_um) {
 
 std::vector<MapLine> map_lines(const StoreReader& store,
                                const GeoBox& box,
-                               const std::function<void(const SegmentRecord&, MapLine&)>& paint) {
+                               const std::function<void(const SegmentRecord&, MapLine&)>& paint,
+                               const LineJoining& joining) {
     SegmentFilter all;
     all.with_state_only = false;
-    std::vector<MapLine> lines;
-    std::vector<DrawnSegment> drawn;
+    LineCollector lines{joining};
     visit_box(store, all, box, [&](const SegmentRecord& record) {
-        const auto& key = record.segment.key;
         MapLine line;
         line.line = record.segment.line;
-        line.forward = key.forward;
+        line.forward = record.segment.key.forward;
         line.rank = rank_of(record.highway);
         line.name = record.name;
         paint(record, line);
-        drawn.push_back({key.way_id, key.index, lines.size()});
-        lines.push_back(std::move(line));
+        lines.add(record.segment, std::move(line));
     });
-    pair_directions(lines, std::move(drawn));
-    return lines;
+    return std::move(lines).finished();
 }
 
 std::vector<MapLine> map_lines(const StoreReader& store,
                                const GeoBox& box,
                                const ClassTable& classes,
                                int min_passes,
-                               const SegmentFilter& filter) {
+                               const SegmentFilter& filter,
+                               double scale_denominator) {
     std::optional<SelectedStates> selected;
     if (SegmentFilter others = filter; others.box.reset(), selects(others)) {
         selected = selected_states(store, others, box);
     }
-    return map_lines(store, box, [&](const SegmentRecord& record, MapLine& line) {
-        const auto* state = record.state ? &*record.state : nullptr;
+    const auto roughness_of = [&](const SegmentRecord& record) {
+        std::optional<SegmentSummary::Roughness> roughness;
         if (selected) {
-            const auto found = selected->find(record.segment.key);
-            state = found != selected->end() ? &found->second : nullptr;
+            if (const auto found = selected->find(record.segment.key); found != selected->end()) {
+                roughness = found->second;
+            }
+        } else if (const auto& state = record.state) {
+            roughness = {state->iri_um, state->sd_um, state->passes};
         }
-        if (state != nullptr) {
-            line.iri_mm_per_m = state->iri_um / 1000.0;
+        return roughness;
+    };
+    const auto paint = [&](const SegmentRecord& record, MapLine& line) {
+        if (const auto roughness = roughness_of(record)) {
+            line.iri_mm_per_m = roughness->iri_um / 1000.0;
             line.iri_class = static_cast<int>(class_index(classes, line.iri_mm_per_m));
-            line.few_passes = has_few_passes(state->passes, min_passes);
-            line.certain = is_certain(state->iri_um, state->sd_um);
+            line.few_passes = has_few_passes(roughness->passes, min_passes);
+            line.certain = is_certain(roughness->iri_um, roughness->sd_um);
         }
-    });
+    };
+    return map_lines(store,
+                     box,
+                     paint,
+                     joining_at(scale_denominator, store.settings().segment_length_m, classes));
 }
 
 MapPlan load_map(const StoreReader& store,
@@ -351,10 +341,14 @@ MapPlan load_map(const StoreReader& store,
         if (request.background) {
             set_background();
         }
-        plan.set_roads(
-            lines ? lines(box)
-                  : map_lines(store, box, classes_of(request), request.style.min_passes, filter),
-            request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
+        plan.set_roads(lines ? lines(box)
+                             : map_lines(store,
+                                         box,
+                                         classes_of(request),
+                                         request.style.min_passes,
+                                         filter,
+                                         plan.scale()),
+                       request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
         if (request.background && &plan.background_level() != &level) {
             set_background(); // the legend made the map smaller
         }

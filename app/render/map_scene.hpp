@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/render/line_collector.hpp"
 #include "render/map/map_plan.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
@@ -27,18 +28,21 @@ bool is_certain(IriUm iri_um, IriUm sd_um);
 /// without a pass and those that the filter leaves out are roads without a measurement; those with
 /// fewer than `min_passes` are marked. Segments known from references only are not marked.
 ///
-/// \param filter  its box does not count
+/// \param filter             its box does not count
+/// \param scale_denominator  of the map, for which segments are joined; 0: none are
 std::vector<MapLine> map_lines(const StoreReader& store,
                                const GeoBox& box,
                                const ClassTable& classes,
                                int min_passes = 1,
-                               const SegmentFilter& filter = {});
+                               const SegmentFilter& filter = {},
+                               double scale_denominator = 0);
 
 /// Returns the segments of a database that touch a box, in key order, as roads without a
 /// measurement that `paint` may change.
 std::vector<MapLine> map_lines(const StoreReader& store,
                                const GeoBox& box,
-                               const std::function<void(const SegmentRecord&, MapLine&)>& paint);
+                               const std::function<void(const SegmentRecord&, MapLine&)>& paint,
+                               const LineJoining& joining = {});
 
 /// Returns a period for people: its first and last day.
 std::string period_text(const ObservedPeriod& seen);

@@ -11,6 +11,7 @@
 #include "app/report/reference_output.hpp"
 #include "app/report/reference_report.hpp"
 #include "app/report/report_data.hpp"
+#include "app/report/section_photos.hpp"
 
 #include "render/report/document/pdf.hpp"
 #include "storage/atomic/atomic_file.hpp"
@@ -20,6 +21,7 @@
 #include <array>
 #include <iterator>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,7 @@ struct ReportOptions {
     std::filesystem::path output;
     ReportConfig report;
     PdfConfig pdf;
+    std::optional<std::filesystem::path> photos; ///< folder
 };
 
 constexpr std::int64_t max_stretches = 200; // each has maps of about 100 kB
@@ -159,12 +162,21 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
                         .wording = wording,
                         .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
                         .style = parse_style(arguments, look.look)};
-    return {.store = store, .output = *output, .report = std::move(report), .pdf = pdf};
+    const auto photos = arguments.value("--photos");
+    if (photos) {
+        expect_photo_folder(*photos);
+    }
+    return {.store = store,
+            .output = *output,
+            .report = std::move(report),
+            .pdf = pdf,
+            .photos = photos};
 }
 
 /// Rejects options that the reference report does not support.
 void refuse_beside_references(const Arguments& arguments) {
     std::vector<std::string_view> refused{"--worst",
+                                          "--photos",
                                           "--sections",
                                           "--section-length",
                                           "--homogeneous",
@@ -273,6 +285,22 @@ void refuse_rows(const Arguments& arguments) {
     }
 }
 
+/// Adds the photos of a folder to a report, and tells of those that it does not show.
+void put_photos(const std::filesystem::path& folder, Report& report, const Console& console) {
+    constexpr std::size_t max_lines = 20;
+    const auto counts = add_photos(folder, report.worst, console.progress("reading photos"));
+    for (const auto& line : counts.skipped | std::views::take(max_lines)) {
+        console.warn("skipped: " + line);
+    }
+    if (counts.skipped.size() > max_lines) {
+        console.warn(fmt::format("skipped: {} more files", counts.skipped.size() - max_lines));
+    }
+    console.say(photo_words(counts));
+    if (counts.shown > 0) {
+        console.say("photos may show people and number plates; look at them before you publish");
+    }
+}
+
 void run_report(const Arguments& arguments, const Console& console) {
     if (arguments.flag("--against-reference")) {
         report_against_reference(arguments, console);
@@ -296,8 +324,11 @@ void run_report(const Arguments& arguments, const Console& console) {
     }
     warn_of_look(options.report.style, console);
     options.report.events = can_show_events(store, options.report.filter, console);
-    const auto document =
-        report_document(report_of(store, options.report, console.progress("drawing maps")));
+    auto report = report_of(store, options.report, console.progress("drawing maps"));
+    if (options.photos) {
+        put_photos(*options.photos, report, console);
+    }
+    const auto document = report_document(report);
     const auto bytes = options.report.pictures == PictureUse::paper ? pdf_of(document, options.pdf)
                                                                     : html_of(document);
     store.expect_in_place();
@@ -339,6 +370,11 @@ constexpr std::array page_options{
         "A4|letter",
         in_group("appearance", {"--paper", "SIZE", "Paper size of a .pdf: A4 or letter.", "A4"}))),
     Option{"--worst", "N", "Number of worst sections to list, each with a map.", "20"},
+    Option{"--photos",
+           "FOLDER",
+           "Show its JPEG photos at the worst sections, by the GPS position in each (EXIF): the 3 "
+           "nearest within 30 m, reduced, without names of people or devices. They may show "
+           "people: look at them before you publish."},
     in_group("sections",
              {"--route",
               "LAT,LON LAT,LON",

@@ -48,26 +48,26 @@ ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int6
 }
 
 /// Returns the first and last day on which measured segments were seen.
-ReportDays days_of(const std::vector<SegmentRecord>& measured) {
+ReportDays days_of(const std::vector<MeasuredSegment>& measured) {
     std::optional<std::int64_t> first_ms, last_ms;
-    for (const auto& record : measured) {
-        const auto& state = *record.state;
-        if (state.first_seen_ms) {
-            first_ms = std::min(first_ms.value_or(*state.first_seen_ms), *state.first_seen_ms);
+    for (const auto& segment : measured) {
+        if (segment.first_seen_ms) {
+            first_ms = std::min(first_ms.value_or(*segment.first_seen_ms), *segment.first_seen_ms);
         }
-        if (state.last_seen_ms) {
-            last_ms = std::max(last_ms.value_or(*state.last_seen_ms), *state.last_seen_ms);
+        if (segment.last_seen_ms) {
+            last_ms = std::max(last_ms.value_or(*segment.last_seen_ms), *segment.last_seen_ms);
         }
     }
     return days_of(first_ms, last_ms);
 }
 
 /// Returns the number of bins for all but the roughest percent.
-std::size_t histogram_bins(const std::vector<SegmentRecord>& measured, const HistogramAxis& axis) {
+std::size_t histogram_bins(const std::vector<MeasuredSegment>& measured,
+                           const HistogramAxis& axis) {
     std::vector<RatedLength> pieces;
     pieces.reserve(measured.size());
-    for (const auto& record : measured) {
-        pieces.push_back(rated_length(record));
+    for (const auto& segment : measured) {
+        pieces.push_back(rated_length(segment));
     }
     const double most = pieces.empty() ? 0 : road_percentile(std::move(pieces), 0.99);
     const double end = axis.round_to * std::ceil(most / axis.mm_per_m_of_one / axis.round_to);
@@ -179,7 +179,7 @@ std::vector<ReportChangedStretch> drawn(const StoreReader& store,
         colour_change(scene, segments, since);
         listed.push_back({stretch,
                           std::string{heading_of(stretch.stretch)},
-                          pictures.stretch(scene, &change_classes())});
+                          pictures.stretch(std::move(scene), &change_classes())});
     }
     return listed;
 }
@@ -204,10 +204,10 @@ ReportChange change_of(const StoreReader& store,
     if (change.segments.empty()) {
         return values;
     }
-    auto scene = whole_scene(store, config.style, config.filter);
+    auto scene = whole_scene(store, config.style, config.pictures, config.filter);
     colour_change(scene, change.segments, since);
     values.map_width_m = pictures.map_width_m(scene);
-    values.map = pictures.map(scene, &change_classes());
+    values.map = pictures.map(std::move(scene), &change_classes());
     values.worse = drawn(store, change.worse, change, since, pictures);
     values.better = drawn(store, change.better, change, since, pictures);
     return values;
@@ -251,17 +251,72 @@ void put_events(const StoreReader& store, const SegmentFilter& filter, Report& r
     }
 }
 
+/// Puts in what the measured segments amount to.
+void put_summary(const Survey& survey, const ReportConfig& config, Report& report) {
+    const auto& classes = *config.style.classes;
+    report.summary = network_summary(survey.measured, survey.network_m, classes);
+    const auto& axis = axis_in(config.wording.unit);
+    report.histogram = iri_histogram(survey.measured,
+                                     classes,
+                                     axis.step * axis.mm_per_m_of_one,
+                                     histogram_bins(survey.measured, axis));
+    report.segments = survey.segments;
+    report.segments_with_passes = survey.measured.size();
+    report.quality = data_quality(survey.measured);
+}
+
+/// Finds the sections of poor road, counts them in the report, and returns those to list.
+std::vector<WorstSection> sections_to_list(const RoadNetwork& roads,
+                                           const Survey& survey,
+                                           const ReportConfig& config,
+                                           Report& report) {
+    WorstSectionConfig poor;
+    poor.above_mm_per_m = poor_above(*config.style.classes);
+    auto stretches = worst_sections(roads, survey.measured, poor);
+    sort_by_need(stretches, poor.above_mm_per_m);
+    report.poor_above_mm_per_m = poor.above_mm_per_m;
+    report.min_stretch_m = poor.min_length_m;
+    report.stretches = stretches.size();
+    for (const auto& stretch : stretches) {
+        report.stretches_m += stretch.length_m;
+    }
+    stretches.resize(std::min(stretches.size(), config.worst));
+    return stretches;
+}
+
+void put_worst(const StoreReader& store,
+               const std::vector<WorstSection>& stretches,
+               const Survey& survey,
+               const ClassTable& classes,
+               ReportPictures& pictures,
+               Report& report) {
+    for (const auto& stretch : stretches) {
+        report.worst.push_back(
+            {.stretch = stretch,
+             .heading = std::string{heading_of(stretch)},
+             .seen = days_of(stretch.first_seen_ms, stretch.last_seen_ms),
+             .map = pictures.stretch(stretch_scene(store, stretch, survey.measured, classes)),
+             .strip = strip_of(stretch, survey.measured, classes)});
+    }
+}
+
+void put_overview(const StoreReader& store,
+                  const ReportConfig& config,
+                  ReportPictures& pictures,
+                  Report& report) {
+    auto map = whole_scene(store, config.style, config.pictures, config.filter);
+    report.few_passes = few_passes_of(map, config);
+    report.map_width_m = pictures.map_width_m(map);
+    report.map = pictures.map(std::move(map));
+}
+
 } // namespace
 
 Report report_of(const StoreReader& store, const ReportConfig& config, const Progress& progress) {
     const auto& classes = *config.style.classes;
     const auto info = store.info();
-    const auto survey = survey_of(store, config.filter);
-    const auto roads = load_or_build_network(store);
-    WorstSectionConfig poor;
-    poor.above_mm_per_m = poor_above(classes);
-    auto stretches = worst_sections(roads, survey.measured, poor);
-    sort_by_need(stretches, poor.above_mm_per_m);
+    auto survey = survey_of(store, config.filter);
+    auto roads = load_or_build_network(store);
 
     Report report;
     report.wording = config.wording;
@@ -276,20 +331,8 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     report.classes = &classes;
     report.colours = class_colours(config.style, classes.classes.size());
     report.words = config.style.words;
-    report.summary = network_summary(survey.measured, survey.network_m, classes);
-    const auto& axis = axis_in(config.wording.unit);
-    report.histogram = iri_histogram(survey.measured,
-                                     classes,
-                                     axis.step * axis.mm_per_m_of_one,
-                                     histogram_bins(survey.measured, axis));
-    report.segments = survey.segments;
-    report.segments_with_passes = survey.measured.size();
-    report.poor_above_mm_per_m = poor.above_mm_per_m;
-    report.min_stretch_m = poor.min_length_m;
-    report.stretches = stretches.size();
-    for (const auto& stretch : stretches) {
-        report.stretches_m += stretch.length_m;
-    }
+    put_summary(survey, config, report);
+    const auto stretches = sections_to_list(roads, survey, config, report);
     if (config.sections) {
         report.sections = sections_of(store, *config.sections, config.filter);
     }
@@ -299,7 +342,6 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     }
     const auto usage = store.usage();
     report.vehicles = vehicles_of(usage);
-    report.quality = data_quality(survey.measured);
     report.publication = publication_of(info);
     report.is_own = info.settings.privacy == PrivacyProfile::own;
     report.lateral_passes = info.lateral_passes;
@@ -313,23 +355,14 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
         config.since_ms
             ? std::optional{compare_since(store, roads, config.filter, *config.since_ms)}
             : std::nullopt;
-    stretches.resize(std::min(stretches.size(), config.worst));
     ReportPictures pictures{config.style,
                             config.pictures,
                             progress,
                             stretches.size() + 1 + (change ? pictures_of(change->change) : 0)};
-    const auto map = whole_scene(store, config.style, config.filter);
-    report.few_passes = few_passes_of(map, config);
-    report.map = pictures.map(map);
-    report.map_width_m = pictures.map_width_m(map);
-    for (auto& stretch : stretches) {
-        const auto scene = stretch_scene(store, stretch, survey.measured, classes);
-        report.worst.push_back({.stretch = stretch,
-                                .heading = std::string{heading_of(stretch)},
-                                .seen = days_of(stretch.first_seen_ms, stretch.last_seen_ms),
-                                .map = pictures.stretch(scene),
-                                .strip = strip_of(stretch, survey.measured, classes)});
-    }
+    put_worst(store, stretches, survey, classes, pictures, report);
+    survey = {}; // both make room for the roads of the map
+    roads = {};
+    put_overview(store, config, pictures, report);
     if (change) {
         report.change = change_of(store, *change, config, pictures);
     }

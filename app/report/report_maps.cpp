@@ -24,8 +24,6 @@ constexpr PictureSizes on_paper{2100, 300, 1040, 300, 0.6};
 constexpr double min_map_shape = 0.625; // height / width
 constexpr double max_map_shape = 0.893;
 
-// A picture of maximum height shows at least as much as lower ones of the same box.
-constexpr int max_width_px = 1120, max_height_px = 1000;
 constexpr double min_margin_m = 60;   // around a section: the next side streets
 constexpr double margin_share = 0.25; // share of its extent
 
@@ -92,7 +90,7 @@ ReportPictures::ReportPictures(const MapStyle& style,
     : style_{unadorned(style)}, use_{use}, progress_{progress}, count_{count} {}
 
 ReportPicture
-ReportPictures::draw(const MapScene& scene, const PictureSize& size, const ClassTable* classes) {
+ReportPictures::draw(MapScene scene, const PictureSize& size, const ClassTable* classes) {
     if (progress_.stop.stop_requested()) {
         throw InputError{"stopped before the report was complete"};
     }
@@ -100,32 +98,47 @@ ReportPictures::draw(const MapScene& scene, const PictureSize& size, const Class
     const auto png = [&](MapStyle::Theme theme) {
         auto style = in_theme(style_, theme);
         style.classes = classes != nullptr ? classes : style.classes;
-        return encode_png(render_map(scene, style, size));
+        MapPlan plan{std::move(scene), style, size}; // a second copy of a large map would not fit
+        auto bytes = encode_png(image_of(plan));
+        scene = std::move(plan).scene();
+        return bytes;
     };
     using enum MapStyle::Theme;
-    return use_ == PictureUse::paper
-               ? ReportPicture{png(print), {}, size.width_px, size.height_px}
-               : ReportPicture{png(light), png(dark), size.width_px, size.height_px};
+    ReportPicture picture{{}, {}, size.width_px, size.height_px};
+    picture.light_png = png(use_ == PictureUse::paper ? print : light);
+    if (use_ == PictureUse::screen) {
+        picture.dark_png = png(dark);
+    }
+    return picture;
 }
 
-ReportPicture ReportPictures::map(const MapScene& scene, const ClassTable* classes) {
-    return draw(scene, map_size(scene.box, use_), classes);
+ReportPicture ReportPictures::map(MapScene scene, const ClassTable* classes) {
+    const auto size = map_size(scene.box, use_);
+    return draw(std::move(scene), size, classes);
 }
 
-ReportPicture ReportPictures::stretch(const MapScene& scene, const ClassTable* classes) {
-    return draw(scene, stretch_size(use_), classes);
+ReportPicture ReportPictures::stretch(MapScene scene, const ClassTable* classes) {
+    return draw(std::move(scene), stretch_size(use_), classes);
 }
 
 double ReportPictures::map_width_m(const MapScene& scene) const {
-    return MapPlan{scene, style_, map_size(scene.box, use_)}.ground_width_m();
+    MapScene empty;
+    empty.box = scene.box;
+    empty.scale_bar = scene.scale_bar;
+    return MapPlan{std::move(empty), style_, map_size(scene.box, use_)}.ground_width_m();
 }
 
-MapScene whole_scene(const StoreReader& store, const MapStyle& style, const SegmentFilter& filter) {
-    const auto plan = load_map(store,
-                               {.filter = filter,
-                                .style = unadorned(style),
-                                .size = {.width_px = max_width_px, .height_px = max_height_px}});
-    auto scene = plan.scene();
+MapScene whole_scene(const StoreReader& store,
+                     const MapStyle& style,
+                     PictureUse use,
+                     const SegmentFilter& filter) {
+    // A picture of maximum height shows at least as much as lower ones of the same box.
+    const auto& sizes = sizes_for(use);
+    const PictureSize size{.width_px = sizes.map_width_px,
+                           .height_px = static_cast<int>(sizes.map_width_px * max_map_shape),
+                           .px_per_inch = sizes.map_px_per_inch};
+    auto plan = load_map(store, {.filter = filter, .style = unadorned(style), .size = size});
+    auto scene = std::move(plan).scene();
     scene.subtitle.clear();    // on the page
     scene.attribution.clear(); // likewise
     scene.scale_bar = false;   // likewise, in letters as large as all others on a phone
@@ -147,7 +160,7 @@ quiet_scene(const StoreReader& store, const WorstSection& stretch, const ClassTa
 
 MapScene stretch_scene(const StoreReader& store,
                        const WorstSection& stretch,
-                       const std::vector<SegmentRecord>& measured,
+                       const std::vector<MeasuredSegment>& measured,
                        const ClassTable& classes) {
     MapScene scene;
     scene.scale_bar = false; // too small to read on a phone; the page states the length
@@ -157,14 +170,22 @@ MapScene stretch_scene(const StoreReader& store,
     for (auto& line : scene.lines) {
         line.rank = side_street;
     }
+    SegmentFilter of_stretch;
+    of_stretch.with_state_only = false;
+    of_stretch.ranges.emplace();
     for (const auto i : stretch.records) {
-        const auto& record = measured[i];
+        const auto& key = measured[i].key;
+        of_stretch.ranges->push_back({key.way_id, key.forward, key.index, key.index + 1});
+    }
+    auto next = stretch.records.begin();
+    store.visit(of_stretch, [&](const SegmentRecord& record) {
         MapLine line;
         line.name = record.name;
         line.line = record.segment.line;
-        line.iri_class = static_cast<int>(class_index(classes, rated_length(record).iri));
+        line.iri_class =
+            static_cast<int>(class_index(classes, rated_length(measured[*next++]).iri));
         scene.lines.push_back(std::move(line));
-    }
+    });
     return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 #include "mapping/analysis/worst_sections.hpp"
+#include "mapping/fusion/measured_segment.hpp"
 #include "render/report/document/document.hpp"
 #include "render/scene/scene.hpp"
 #include "storage/store/reader/store_reader.hpp"
@@ -30,14 +31,14 @@ public:
     /// Draws a picture of the size for maps or for sections.
     /// \param classes      class table of the scene's lines; null: that of the report
     /// \throws InputError  on a stop request.
-    ReportPicture map(const MapScene& scene, const ClassTable* classes = nullptr);
-    ReportPicture stretch(const MapScene& scene, const ClassTable* classes = nullptr);
+    ReportPicture map(MapScene scene, const ClassTable* classes = nullptr);
+    ReportPicture stretch(MapScene scene, const ClassTable* classes = nullptr);
 
     /// Returns the width of a map on the ground.
     double map_width_m(const MapScene& scene) const;
 
 private:
-    ReportPicture draw(const MapScene& scene, const PictureSize& size, const ClassTable* classes);
+    ReportPicture draw(MapScene scene, const PictureSize& size, const ClassTable* classes);
 
     MapStyle style_;
     PictureUse use_;
@@ -48,8 +49,10 @@ private:
 
 /// Builds a scene of all roads, or of those that a filter selects, without the text that the page
 /// has itself.
-MapScene
-whole_scene(const StoreReader& store, const MapStyle& style, const SegmentFilter& filter = {});
+MapScene whole_scene(const StoreReader& store,
+                     const MapStyle& style,
+                     PictureUse use,
+                     const SegmentFilter& filter = {});
 
 /// Builds a scene around a section, with all roads muted.
 MapScene
@@ -59,7 +62,7 @@ quiet_scene(const StoreReader& store, const WorstSection& stretch, const ClassTa
 /// drawn wider than its neighbours, which have their names and colours.
 MapScene stretch_scene(const StoreReader& store,
                        const WorstSection& stretch,
-                       const std::vector<SegmentRecord>& measured,
+                       const std::vector<MeasuredSegment>& measured,
                        const ClassTable& classes);
 
 } // namespace macadam

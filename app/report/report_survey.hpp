@@ -1,9 +1,13 @@
 #pragma once
 
+#include "mapping/fusion/measured_segment.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,9 +15,10 @@ namespace macadam {
 
 /// Measured segments of a selection, and the roads on which they lie.
 struct Survey {
-    std::vector<SegmentRecord> measured;
+    std::vector<MeasuredSegment> measured;   ///< in key order; their texts are in `texts`
     std::size_t segments = 0;                ///< on these roads
     std::map<std::string, double> network_m; ///< by highway tag
+    std::shared_ptr<const std::set<std::string, std::less<>>> texts{};
 };
 
 /// Reads the measured segments that a filter selects, and the length of the roads that meet its

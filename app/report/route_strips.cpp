@@ -205,7 +205,7 @@ std::vector<Strip> route_strips(const StoreReader& store,
             const auto found = records.find(row == 0 ? *piece.segment : opposite(*piece.segment));
             if (found != records.end()) {
                 whole.rows[row].pieces.push_back(
-                    strip_piece(found->second, classes, piece.from_m, piece.to_m));
+                    strip_piece(rated_length(found->second), classes, piece.from_m, piece.to_m));
             }
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/analysis/length_weighted_mean.hpp"
 #include "mapping/analysis/worst_sections.hpp"
 #include "render/report/report.hpp"
 
@@ -7,14 +8,14 @@
 
 namespace macadam {
 
-/// Returns the roughness of a segment that has passes, at a chainage.
+/// Returns the roughness of a segment at a chainage.
 StripPiece
-strip_piece(const SegmentRecord& record, const ClassTable& classes, double from_m, double to_m);
+strip_piece(const RatedLength& rated, const ClassTable& classes, double from_m, double to_m);
 
 /// Returns the segments of a section by metres from its beginning, as driven.
-/// \param measured  records that the section refers to
+/// \param measured  segments that the section refers to
 std::vector<StripPiece> strip_of(const WorstSection& section,
-                                 const std::vector<SegmentRecord>& measured,
+                                 const std::vector<MeasuredSegment>& measured,
                                  const ClassTable& classes);
 
 } // namespace macadam

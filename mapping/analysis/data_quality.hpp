@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mapping/fusion/segment_record.hpp"
+#include "mapping/fusion/measured_segment.hpp"
 
 #include <cstddef>
 #include <span>
@@ -25,7 +25,7 @@ struct DataQuality {
     SegmentCount gap;           ///< partly without data
 };
 
-/// Counts segments by data basis; segments without a state are skipped.
-DataQuality data_quality(std::span<const SegmentRecord> measured);
+/// Counts segments by data basis.
+DataQuality data_quality(std::span<const MeasuredSegment> measured);
 
 } // namespace macadam

@@ -20,6 +20,10 @@ RatedLength rated_length(const SegmentRecord& record) {
             record.state->sd_um / um_per_mm};
 }
 
+RatedLength rated_length(const MeasuredSegment& segment) {
+    return {segment.to_m - segment.from_m, segment.iri_um / um_per_mm, segment.sd_um / um_per_mm};
+}
+
 RoadMean road_mean(std::span<const RatedLength> pieces, double common_share) {
     RoadMean mean;
     double sum = 0, together = 0, apart = 0;

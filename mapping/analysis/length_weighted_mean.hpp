@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/fusion/measured_segment.hpp"
 #include "mapping/fusion/segment_record.hpp"
 
 #include <span>
@@ -16,6 +17,7 @@ struct RatedLength {
 
 /// Extracts length and roughness of a segment that has passes.
 RatedLength rated_length(const SegmentRecord& record);
+RatedLength rated_length(const MeasuredSegment& segment);
 
 /// Mean roughness of several intervals, mm/m.
 struct RoadMean {

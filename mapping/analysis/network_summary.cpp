@@ -51,15 +51,15 @@ std::vector<ClassLengthRange> class_ranges(std::span<const RatedLength> pieces,
 }
 
 /// \param kind  "" for all.
-RoadSummary summary_of(std::span<const SegmentRecord> measured,
+RoadSummary summary_of(std::span<const MeasuredSegment> measured,
                        std::string_view kind,
                        const ClassTable& classes) {
     RoadSummary summary{.kind = std::string{kind}};
     std::vector<RatedLength> pieces;
-    for (const auto& record : measured) {
-        if (record.state && (kind.empty() || road_kind(record.highway) == kind)) {
-            pieces.push_back(rated_length(record));
-            summary.thrice_m += record.state->passes >= thrice ? pieces.back().length_m : 0;
+    for (const auto& segment : measured) {
+        if (kind.empty() || road_kind(segment.highway) == kind) {
+            pieces.push_back(rated_length(segment));
+            summary.thrice_m += segment.passes >= thrice ? pieces.back().length_m : 0;
         }
     }
     summary.mean = road_mean(pieces);
@@ -88,7 +88,7 @@ std::string_view road_kind(std::string_view highway) {
     return found != kinds.end() ? *found : kinds.back();
 }
 
-NetworkSummary network_summary(std::span<const SegmentRecord> measured,
+NetworkSummary network_summary(std::span<const MeasuredSegment> measured,
                                const std::map<std::string, double>& network_m,
                                const ClassTable& classes) {
     std::map<std::string_view, double> of_kind_m;
@@ -106,19 +106,17 @@ NetworkSummary network_summary(std::span<const SegmentRecord> measured,
     return summary;
 }
 
-IriHistogram iri_histogram(std::span<const SegmentRecord> measured,
+IriHistogram iri_histogram(std::span<const MeasuredSegment> measured,
                            const ClassTable& classes,
                            double step_mm_per_m,
                            std::size_t bins) {
     IriHistogram histogram{step_mm_per_m, {}};
     histogram.length_m.assign(bins, std::vector<double>(classes.classes.size(), 0.0));
-    for (const auto& record : measured) {
-        if (record.state) {
-            const auto piece = rated_length(record);
-            const auto bin = static_cast<std::size_t>(piece.iri / step_mm_per_m);
-            histogram.length_m[std::min(bin, bins - 1)][class_index(classes, piece.iri)] +=
-                piece.length_m;
-        }
+    for (const auto& segment : measured) {
+        const auto piece = rated_length(segment);
+        const auto bin = static_cast<std::size_t>(piece.iri / step_mm_per_m);
+        histogram.length_m[std::min(bin, bins - 1)][class_index(classes, piece.iri)] +=
+            piece.length_m;
     }
     return histogram;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mapping/analysis/length_weighted_mean.hpp"
-#include "mapping/fusion/segment_record.hpp"
+#include "mapping/fusion/measured_segment.hpp"
 #include "mapping/style/iri_class.hpp"
 
 #include <map>
@@ -45,9 +45,8 @@ std::string_view road_kind(std::string_view highway);
 
 /// Summarises a network.
 ///
-/// \param measured   segments with a state; others are skipped.
 /// \param network_m  metres on the map by highway tag, measured or not.
-NetworkSummary network_summary(std::span<const SegmentRecord> measured,
+NetworkSummary network_summary(std::span<const MeasuredSegment> measured,
                                const std::map<std::string, double>& network_m,
                                const ClassTable& classes);
 
@@ -57,7 +56,7 @@ struct IriHistogram {
     double step_mm_per_m;
     std::vector<std::vector<double>> length_m;
 };
-IriHistogram iri_histogram(std::span<const SegmentRecord> measured,
+IriHistogram iri_histogram(std::span<const MeasuredSegment> measured,
                            const ClassTable& classes,
                            double step_mm_per_m,
                            std::size_t bins);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -20,19 +21,15 @@ constexpr double a_centimetre_m = 0.01; // output resolution of lengths
 
 /// Index of the measured segments in key order.
 struct Lookup {
-    std::span<const SegmentRecord> records;
+    std::span<const MeasuredSegment> records;
     std::vector<std::size_t> order;
 
-    const SegmentKey& key(std::size_t i) const { return records[i].segment.key; }
+    const SegmentKey& key(std::size_t i) const { return records[i].key; }
 };
 
-Lookup lookup_of(std::span<const SegmentRecord> records) {
-    Lookup lookup{records, {}};
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        if (records[i].state) {
-            lookup.order.push_back(i);
-        }
-    }
+Lookup lookup_of(std::span<const MeasuredSegment> measured) {
+    Lookup lookup{measured, std::vector<std::size_t>(measured.size())};
+    std::iota(lookup.order.begin(), lookup.order.end(), std::size_t{0});
     std::ranges::sort(lookup.order, [&](auto a, auto b) { return lookup.key(a) < lookup.key(b); });
     return lookup;
 }
@@ -209,10 +206,17 @@ std::vector<GeoPoint> line_through(const std::vector<Segment>& segments) {
 
 /// Summarises the measured segments of a section.
 WorstSection rated(std::vector<std::size_t> records, const Lookup& lookup, double common_share) {
+    std::vector<SegmentState> states(records.size());
     std::vector<MeasuredPiece> pieces;
-    for (const auto i : records) {
-        const auto& record = lookup.records[i];
-        pieces.push_back({record.segment.to_m - record.segment.from_m, 0, &*record.state});
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto& segment = lookup.records[records[i]];
+        states[i].iri_um = segment.iri_um;
+        states[i].sd_um = segment.sd_um;
+        states[i].passes = segment.passes;
+        states[i].vehicles = segment.vehicles;
+        states[i].first_seen_ms = segment.first_seen_ms;
+        states[i].last_seen_ms = segment.last_seen_ms;
+        pieces.push_back({segment.to_m - segment.from_m, 0, &states[i]});
     }
     const auto road = measured_road(pieces, {.common_share = common_share, .correlation_m = 0});
     WorstSection section{};
@@ -258,7 +262,7 @@ double poor_above(const ClassTable& table) {
 }
 
 std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
-                                         std::span<const SegmentRecord> measured,
+                                         std::span<const MeasuredSegment> measured,
                                          const WorstSectionConfig& config) {
     const auto lookup = lookup_of(measured);
     const auto wanted = edges_to_follow(roads, lookup, config);
@@ -277,6 +281,26 @@ std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
         return std::pair{-a.mean.iri, lookup.key(a.records.front())} <
                std::pair{-b.mean.iri, lookup.key(b.records.front())};
     });
+    return sections;
+}
+
+std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
+                                         std::span<const SegmentRecord> records,
+                                         const WorstSectionConfig& config) {
+    std::vector<MeasuredSegment> measured;
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (records[i].state) {
+            measured.push_back(measured_segment(records[i]));
+            indices.push_back(i);
+        }
+    }
+    auto sections = worst_sections(roads, std::span<const MeasuredSegment>{measured}, config);
+    for (auto& section : sections) {
+        for (auto& record : section.records) {
+            record = indices[record];
+        }
+    }
     return sections;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/analysis/length_weighted_mean.hpp"
+#include "mapping/fusion/measured_segment.hpp"
 #include "mapping/fusion/segment_record.hpp"
 #include "mapping/network/road_network.hpp"
 #include "mapping/style/iri_class.hpp"
@@ -66,13 +67,18 @@ double poor_above(const ClassTable& table);
 /// the next; longer stretches of better or unmeasured road end the section.
 ///
 /// \param roads     the network of the segments.
-/// \param measured  segments with a state, in any order; others are skipped.
+/// \param measured  in any order.
 ///
 /// Source of the runs: W. L. Ruzzo and M. Tompa, "A linear time algorithm for finding all maximal
 /// scoring subsequences", ISMB 1999, pp. 234-241; the score of a segment is its length times its
 /// excess over the threshold.
 std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
-                                         std::span<const SegmentRecord> measured,
+                                         std::span<const MeasuredSegment> measured,
+                                         const WorstSectionConfig& config);
+
+/// Joins the segments of records likewise; those without a state are skipped.
+std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
+                                         std::span<const SegmentRecord> records,
                                          const WorstSectionConfig& config);
 
 /// Weight of a road's traffic: a convention, by OSM's class of the road. Motorway to primary 4,

@@ -323,14 +323,19 @@ PictureSize size_for(const MapScene& scene,
     return best;
 }
 
-Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
-    MapPlan plan{scene, style, size};
-    Image image{size.width_px, size.height_px, {}};
-    image.rgb.reserve(std::size_t(size.width_px) * std::size_t(size.height_px) * 3);
+Image image_of(MapPlan& plan) {
+    const auto [width_px, height_px, band_px, px_per_inch] = plan.size();
+    Image image{width_px, height_px, {}};
+    image.rgb.reserve(std::size_t(width_px) * std::size_t(height_px) * 3);
     plan.draw([&](std::span<const std::uint8_t> rgb) {
         image.rgb.insert(image.rgb.end(), rgb.begin(), rgb.end());
     });
     return image;
+}
+
+Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
+    MapPlan plan{scene, style, size};
+    return image_of(plan);
 }
 
 } // namespace macadam

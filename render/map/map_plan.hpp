@@ -55,7 +55,8 @@ public:
     /// Returns the share of the sheet without text, legend or data, 0 to 1.
     double empty_share() const { return macadam::empty_share(scene_, layout_, placement_); }
 
-    const MapScene& scene() const { return scene_; }
+    const MapScene& scene() const& { return scene_; }
+    MapScene scene() && { return std::move(scene_); }
     const MapStyle& style() const { return style_; }
     const PictureSize& size() const { return size_; }
 
@@ -101,6 +102,9 @@ PictureSize size_for(const MapScene& scene,
                      const MapStyle& style,
                      const PictureSize& usual,
                      std::span<const PictureSize> others);
+
+/// Draws a plan as one picture.
+Image image_of(MapPlan& plan);
 
 /// Plans and draws a scene with its lines.
 Image render_map(const MapScene& scene, const MapStyle& style, const PictureSize& size);

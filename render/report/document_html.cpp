@@ -283,16 +283,36 @@ std::string block_html(const MapFigure& map) {
                        escaped(map.caption));
 }
 
+/// Returns the photos of a card; "" without any.
+std::string photos_html(const std::vector<Photo>& photos) {
+    if (photos.empty()) {
+        return {};
+    }
+    std::string html = "<div class=\"photos\">\n";
+    for (const auto& photo : photos) {
+        html += fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" "
+                            "src=\"data:image/jpeg;base64,{}\"><figcaption>{}</figcaption>"
+                            "</figure>\n",
+                            photo.width_px,
+                            photo.height_px,
+                            escaped(photo.words),
+                            base64(photo.jpeg),
+                            escaped(photo.caption));
+    }
+    return html + "</div>\n";
+}
+
 std::string block_html(const Cards& cards) {
     std::string html = "<div class=\"cards\">\n";
     for (const auto& card : cards.cards) {
         html +=
-            fmt::format("<figure id=\"{}\">{}{}<figcaption><h3>{}</h3>{}</figcaption></figure>\n",
+            fmt::format("<figure id=\"{}\">{}{}<figcaption><h3>{}</h3>{}</figcaption>{}</figure>\n",
                         escaped(card.id),
                         picture_html(card.picture, card.words),
                         card.chart ? block_html(*card.chart) : "",
                         escaped(card.title),
-                        html_of(card.text));
+                        html_of(card.text),
+                        photos_html(card.photos));
     }
     return html + "</div>\n";
 }

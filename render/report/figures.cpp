@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -16,13 +17,11 @@ using namespace document;
 
 namespace {
 
-// Sizes of the histogram in its own units; a phone shows 400 units on about 330 px.
-constexpr double width = 400;
-constexpr double height = 230;
+// Place of the columns within a histogram, in its own units.
 constexpr double left = 40;
-constexpr double right = 392;
+constexpr double right_margin = 8;
 constexpr double top = 24;
-constexpr double bottom = 186;
+constexpr double bottom_margin = 44;
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -33,12 +32,13 @@ struct Axes {
     double max_iri; ///< mm/m
     double max_km;  ///< or mi
     double step_km;
+    double right, bottom;
 
     double x(double iri) const { return left + (right - left) * std::min(iri / max_iri, 1.0); }
     double y(double km) const { return bottom - (bottom - top) * km / max_km; }
 };
 
-Axes axes_of(const IriHistogram& histogram, const Localisation& say) {
+Axes axes_of(const IriHistogram& histogram, const Localisation& say, const HistogramSize& size) {
     double max_km = 0;
     for (const auto& bin : histogram.length_m) {
         max_km = std::max(max_km, say.long_length(sum_of(bin)));
@@ -46,7 +46,9 @@ Axes axes_of(const IriHistogram& histogram, const Localisation& say) {
     const double step_km = nice_step(std::max(max_km, 0.001), 4);
     return {histogram.step_mm_per_m * static_cast<double>(histogram.length_m.size()),
             step_km * std::ceil(max_km / step_km - 1e-9),
-            step_km};
+            step_km,
+            size.width - right_margin,
+            size.height - bottom_margin};
 }
 
 /// Returns the step between two numbers under the axis, in the report's unit.
@@ -56,6 +58,7 @@ double iri_step(const Axes& axes, IriUnit unit) {
 }
 
 void add_grid(Drawing& drawing, const Axes& axes, const Localisation& say) {
+    const auto [right, bottom] = std::pair{axes.right, axes.bottom};
     const int lines = static_cast<int>(std::lround(axes.max_km / axes.step_km));
     for (int i = 0; i <= lines; ++i) {
         const double y = axes.y(i * axes.step_km);
@@ -99,7 +102,7 @@ std::string bin_words(const Report& report, std::size_t bin, std::size_t c, doub
 
 void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
     const auto& bins = report.histogram.length_m;
-    const double bar = (right - left) / static_cast<double>(bins.size());
+    const double bar = (axes.right - left) / static_cast<double>(bins.size());
     for (std::size_t bin = 0; bin < bins.size(); ++bin) {
         double below_km = 0;
         for (std::size_t c = 0; c < report.colours.size(); ++c) {
@@ -120,8 +123,8 @@ void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
 
 void add_mean(Drawing& drawing, const Axes& axes, double iri, const Localisation& say) {
     const double x = axes.x(iri);
-    const bool at_right = x > (left + right) / 2;
-    drawing.shapes.emplace_back(Stroke{StrokeLook::mean, {{x, top - 12}, {x, bottom}}});
+    const bool at_right = x > (left + axes.right) / 2;
+    drawing.shapes.emplace_back(Stroke{StrokeLook::mean, {{x, top - 12}, {x, axes.bottom}}});
     drawing.shapes.emplace_back(Label{x + (at_right ? -5 : 5),
                                       top - 4,
                                       at_right ? Anchor::end : Anchor::start,
@@ -148,11 +151,11 @@ Cell share_bar(const Report& report, const RoadSummary& roads) {
     return cell;
 }
 
-Drawing histogram_drawing(const Report& report) {
+Drawing histogram_drawing(const Report& report, const HistogramSize& size) {
     const auto& say = report.wording;
-    const auto axes = axes_of(report.histogram, say);
+    const auto axes = axes_of(report.histogram, say, size);
     const double mean = report.summary.all.mean.iri;
-    Drawing drawing{width, height, say("histogram.words", {{"iri", say.iri(mean)}}), {}};
+    Drawing drawing{size.width, size.height, say("histogram.words", {{"iri", say.iri(mean)}}), {}};
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         double km = 0;
         for (const auto& bin : report.histogram.length_m) {

@@ -11,7 +11,14 @@ namespace macadam {
 /// length is covered.
 document::Cell share_bar(const Report& report, const RoadSummary& roads);
 
+/// Size of a histogram in its own units, of which a phone shows 400 on about 330 px.
+struct HistogramSize {
+    double width, height;
+};
+inline constexpr HistogramSize histogram_in_a_column{400, 230};
+inline constexpr HistogramSize histogram_over_a_page{720, 205};
+
 /// Draws kilometres of road by roughness, with the mean.
-document::Drawing histogram_drawing(const Report& report);
+document::Drawing histogram_drawing(const Report& report, const HistogramSize& size);
 
 } // namespace macadam

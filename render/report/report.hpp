@@ -60,12 +60,21 @@ struct Strip {
     std::vector<StripSpan> spans{};
 };
 
+/// Photo of a road, reduced.
+struct ReportPhoto {
+    std::vector<std::uint8_t> jpeg; ///< bytes of a file
+    int width_px, height_px;
+    std::string day;   ///< on which it was taken; "" = unknown
+    double distance_m; ///< from the road
+};
+
 struct ReportStretch {
     WorstSection stretch;
     std::string heading; ///< "NE"
     ReportDays seen;
     ReportPicture map;
     std::vector<StripPiece> strip{}; ///< by metres from the section's beginning, as driven
+    std::vector<ReportPhoto> photos{};
 };
 
 /// Section of the user's own list.

@@ -304,7 +304,8 @@ Overview overview_of(const Report& report) {
     figure.caption = fmt::format("{} {}{}", say("map.remark"), grey, figure.caption);
     Overview overview{std::move(legend), std::move(figure)};
     if (all.covered_m > 0) {
-        overview.distribution = histogram_drawing(report);
+        overview.distribution = histogram_drawing(report, histogram_in_a_column);
+        overview.wide_distribution = histogram_drawing(report, histogram_over_a_page);
     }
     return overview;
 }

@@ -29,7 +29,7 @@ Table table_of(const Report& report) {
                  {say("column.passes"), true, true},
                  {say("column.cars"), true, true}},
                 {}};
-    for (const auto& [stretch, heading, seen, map, strip] : report.worst) {
+    for (const auto& [stretch, heading, seen, map, strip, photos] : report.worst) {
         const auto rank = table.rows.size() + 1;
         table.rows.push_back(
             {RichText{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(rank)}}},
@@ -61,6 +61,18 @@ void add_links(Card& card, const Report& report, const WorstSection& stretch) {
         card.text.spans.push_back({" · "});
         card.text.spans.push_back(std::move(osm));
     }
+}
+
+Photo photo_of(const Report& report, const ReportPhoto& photo, const std::string& road) {
+    const auto& say = report.wording;
+    const auto distance = say.short_length(photo.distance_m);
+    return {photo.jpeg,
+            photo.width_px,
+            photo.height_px,
+            say("photo.words", {{"road", road}}),
+            photo.day.empty()
+                ? say("photo.undated", {{"distance", distance}})
+                : say("photo", {{"day", say.day(photo.day)}, {"distance", distance}})};
 }
 
 Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
@@ -103,6 +115,9 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
                     {{say("column.iri_in", {{"unit", std::string{say.iri_unit()}}}), of.strip}}};
         card.chart =
             strip_drawing(report, strip, strip_on_card, say("strip.words", {{"road", name}}));
+    }
+    for (const auto& photo : of.photos) {
+        card.photos.push_back(photo_of(report, photo, name));
     }
     return card;
 }

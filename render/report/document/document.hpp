@@ -164,6 +164,14 @@ struct MapFigure {
     std::string caption;
 };
 
+/// Photo with a caption.
+struct Photo {
+    std::vector<std::uint8_t> jpeg; ///< bytes of a file
+    int width_px, height_px;
+    std::string words; ///< text alternative for screen readers
+    std::string caption;
+};
+
 /// Small map with a description.
 struct Card {
     std::string id; ///< target of links
@@ -172,6 +180,7 @@ struct Card {
     std::string title;
     RichText text;
     std::optional<Drawing> chart{}; ///< under the picture
+    std::vector<Photo> photos{};    ///< under the text
 };
 
 struct Cards {
@@ -186,11 +195,13 @@ struct DocumentSection {
     std::vector<Block> blocks;
 };
 
-/// The picture of the whole: a map and a distribution, side by side where there is room.
+/// The picture of the whole: a map and a distribution, side by side where a screen has room, one
+/// below the other on paper.
 struct Overview {
     Legend legend;
     MapFigure map;
-    std::optional<Drawing> distribution{};
+    std::optional<Drawing> distribution{};      ///< for a column
+    std::optional<Drawing> wide_distribution{}; ///< the same over the width of a page
 };
 
 /// Words of what a page on screen offers beside its content.

@@ -69,6 +69,9 @@ img{display:block;width:100%;height:auto;border:1px solid var(--rule);border-rad
 .dark,.phone{display:none}
 .cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,18rem),1fr));gap:1.25rem;margin:1.2rem 0}
 .cards figure{margin:0}
+.photos{display:grid;grid-template-columns:repeat(3,1fr);gap:.5rem;margin-top:.5rem}
+.photos img{max-height:14rem;object-fit:contain}
+.photos figcaption{font-size:.75rem;line-height:1.3;margin-top:.25rem}
 figcaption{font-size:.875rem;line-height:1.4;font-variant-numeric:tabular-nums;margin-top:.45rem;overflow-wrap:anywhere}
 figcaption h3{color:var(--ink);margin-bottom:.15rem}
 figcaption b{color:var(--ink);font-weight:600}

@@ -1,6 +1,7 @@
 #include "render/report/document/pdf_blocks.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -13,6 +14,8 @@ constexpr double bullet_indent_pt = 10;
 constexpr std::size_t keys_in_a_row = 5;
 constexpr std::size_t cards_in_a_row = 2; // with charts whose letters can be read
 constexpr double card_gap_pt = 12;
+constexpr int photos_in_a_row = 3;
+constexpr double photo_gap_pt = 5;
 constexpr double key_padding_pt = 7;
 constexpr double legend_gap_pt = 14;
 constexpr double swatch_pt = 7;
@@ -43,12 +46,58 @@ struct Key {
 
 struct CardText {
     PdfText title, text;
-    double picture_pt, chart_pt; ///< heights
+    double picture_pt, chart_pt, photos_pt; ///< heights
 
     double height_pt() const {
-        return picture_pt + chart_pt + 4 + title.height_pt() + text.height_pt();
+        return picture_pt + chart_pt + 4 + title.height_pt() + text.height_pt() + photos_pt;
     }
 };
+
+/// Photos of a card in a row, with captions below.
+struct PhotoRow {
+    std::vector<PdfText> captions;
+    double width_pt;  ///< of a photo
+    double height_pt; ///< of the row with the gap above
+};
+
+/// Returns the size of a photo in a row, of which none is more than half as high again as it has
+/// room in width.
+std::pair<double, double> size_pt(const Photo& photo, double row_width_pt) {
+    constexpr double max_shape = 1.5;
+    const double shape = static_cast<double>(photo.height_px) / std::max(1, photo.width_px);
+    const double width_pt = row_width_pt * std::min(1.0, max_shape / shape);
+    return {width_pt, width_pt * shape};
+}
+
+PhotoRow lay_out(const PdfSheets& sheets, const std::vector<Photo>& photos, double width_pt) {
+    PhotoRow row{{}, (width_pt - photo_gap_pt * (photos_in_a_row - 1)) / photos_in_a_row, 0};
+    for (const auto& photo : photos) {
+        row.captions.push_back(sheets.text(
+            photo.caption, {.size_pt = small_size_pt - 1.5, .rgb = print::quiet}, row.width_pt));
+        row.height_pt = std::max(row.height_pt,
+                                 photo_gap_pt + size_pt(photo, row.width_pt).second +
+                                     row.captions.back().height_pt());
+    }
+    return row;
+}
+
+void put_photos(PdfSheets& sheets,
+                const std::vector<Photo>& photos,
+                const PhotoRow& row,
+                double x_pt,
+                double y_pt) {
+    y_pt += photo_gap_pt;
+    for (std::size_t i = 0; i < photos.size(); ++i) {
+        const auto [shown_pt, height_pt] = size_pt(photos[i], row.width_pt);
+        {
+            const PdfFigure figure{sheets, photos[i].words};
+            sheets.photo(photos[i], x_pt, y_pt, shown_pt);
+        }
+        const PdfElement caption{sheets, "P"};
+        sheets.draw(row.captions[i], x_pt, y_pt + height_pt);
+        x_pt += row.width_pt + photo_gap_pt;
+    }
+}
 
 PdfText lay_out(const PdfSheets& sheets, const Paragraph& paragraph) {
     return sheets.text(paragraph.text, paragraph.small ? remark() : body(), line_width(sheets));
@@ -203,26 +252,26 @@ void put(PdfSheets& sheets, const MapFigure& map) {
 }
 
 void put(PdfSheets& sheets, const Overview& overview) {
-    constexpr double gap_pt = 14;
-    constexpr double map_share = 0.56; // of the width, if a distribution is beside it
+    constexpr double min_map_pt = 200; // of height: on a page of its own rather than smaller
     put(sheets, overview.legend);
-    if (!overview.distribution) {
+    if (!overview.wide_distribution) {
         put(sheets, overview.map);
         return;
     }
-    const double map_pt = map_share * (sheets.width_pt() - gap_pt);
-    const double chart_pt = sheets.width_pt() - gap_pt - map_pt;
-    const auto layout = lay_out(sheets, overview.map, map_pt);
-    sheets.need(layout.whole_pt());
-    const auto& chart = *overview.distribution;
-    const double top_pt = sheets.y_pt();
+    const auto& chart = *overview.wide_distribution;
+    const double chart_height_pt = sheets.width_pt() * chart.height / chart.width;
+    auto layout = lay_out(sheets, overview.map, sheets.width_pt());
+    const double below_pt =
+        layout.whole_pt() - layout.height_pt + chart_height_pt + 2 * block_gap_pt;
+    sheets.need(std::min(layout.height_pt, min_map_pt) + below_pt);
+    const double room_pt = sheets.room_pt() - below_pt;
+    if (layout.height_pt > room_pt) {
+        layout.width_pt *= room_pt / layout.height_pt;
+        layout.height_pt = room_pt;
+    }
     put_map(sheets, overview.map, layout);
-    const double chart_height_pt = chart_pt * chart.height / chart.width;
-    draw_at(sheets,
-            chart,
-            sheets.left_pt() + map_pt + gap_pt,
-            top_pt + std::max(0.0, layout.height_pt - chart_height_pt) / 2,
-            chart_pt);
+    draw_at(sheets, chart, sheets.left_pt(), sheets.y_pt(), sheets.width_pt());
+    sheets.skip(chart_height_pt + block_gap_pt);
 }
 
 namespace {
@@ -242,8 +291,15 @@ void put_card(
         draw_at(sheets, *card.chart, x_pt, sheets.y_pt() + of.picture_pt + 4, width_pt);
     }
     y_pt += of.title.height_pt();
-    const PdfElement text{sheets, "P"};
-    sheets.draw(of.text, x_pt, y_pt);
+    {
+        const PdfElement text{sheets, "P"};
+        sheets.draw(of.text, x_pt, y_pt);
+    }
+    put_photos(sheets,
+               card.photos,
+               lay_out(sheets, card.photos, width_pt),
+               x_pt,
+               y_pt + of.text.height_pt());
 }
 
 } // namespace
@@ -261,7 +317,8 @@ void put(PdfSheets& sheets, const Cards& cards) {
                 {sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, width_pt),
                  sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, width_pt),
                  width_pt * card.picture.height_px / std::max(1, card.picture.width_px),
-                 card.chart ? 4 + width_pt * card.chart->height / card.chart->width : 0});
+                 card.chart ? 4 + width_pt * card.chart->height / card.chart->width : 0,
+                 lay_out(sheets, card.photos, width_pt).height_pt});
             height_pt = std::max(height_pt, row.back().height_pt());
         }
         sheets.need(std::min(height_pt, sheets.height_pt()));

@@ -171,14 +171,42 @@ void PdfSheets::picture(const ReportPicture& picture,
                 fmt::format("cannot read a picture of the report: {}",
                             cairo_status_to_string(cairo_surface_status(image.get())))};
         }
-        cairo_save(cairo_.get());
-        cairo_translate(cairo_.get(), x_pt, y_pt);
-        cairo_scale(cairo_.get(), scale, scale);
-        cairo_set_source_surface(cairo_.get(), image.get(), 0, 0);
-        cairo_paint(cairo_.get());
-        cairo_restore(cairo_.get());
+        paint(*image, x_pt, y_pt, scale);
     }
     frame(print::border, x_pt, y_pt, width_pt, scale * picture.height_px);
+}
+
+void PdfSheets::photo(const document::Photo& photo,
+                      double x_pt,
+                      double y_pt,
+                      double width_pt) const {
+    const double scale = width_pt / std::max(1, photo.width_px);
+    if (!is_counting()) { // the file takes the bytes of the JPEG as they are, and no pixels
+        const CairoSurface image{
+            cairo_image_surface_create(CAIRO_FORMAT_RGB24, photo.width_px, photo.height_px),
+            cairo_surface_destroy};
+        const auto status = cairo_surface_set_mime_data(image.get(),
+                                                        CAIRO_MIME_TYPE_JPEG,
+                                                        photo.jpeg.data(),
+                                                        photo.jpeg.size(),
+                                                        nullptr, // the document outlives the file
+                                                        nullptr);
+        if (status != CAIRO_STATUS_SUCCESS) {
+            throw InputError{
+                fmt::format("cannot place a photo: {}", cairo_status_to_string(status))};
+        }
+        paint(*image, x_pt, y_pt, scale);
+    }
+    frame(print::border, x_pt, y_pt, width_pt, scale * photo.height_px);
+}
+
+void PdfSheets::paint(cairo_surface_t& image, double x_pt, double y_pt, double scale) const {
+    cairo_save(cairo_.get());
+    cairo_translate(cairo_.get(), x_pt, y_pt);
+    cairo_scale(cairo_.get(), scale, scale);
+    cairo_set_source_surface(cairo_.get(), &image, 0, 0);
+    cairo_paint(cairo_.get());
+    cairo_restore(cairo_.get());
 }
 
 void PdfSheets::place(const std::string& id, double y_pt) const {

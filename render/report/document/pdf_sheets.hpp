@@ -35,6 +35,7 @@ public:
     void need(double height_pt);
     void skip(double height_pt);
     bool is_at_top() const { return y_pt_ <= top_margin_pt; }
+    double room_pt() const { return bottom_pt() - y_pt_; } ///< left on the page
     bool has_room(double height_pt) const { return y_pt_ + height_pt <= bottom_pt(); }
 
     PdfText text(const document::RichText& rich, const PdfType& type, double width_pt) const;
@@ -46,6 +47,7 @@ public:
     frame(std::uint32_t rgb, double x_pt, double y_pt, double width_pt, double height_pt) const;
     void rule(std::uint32_t rgb, double x_pt, double y_pt, double width_pt) const;
     void picture(const ReportPicture& picture, double x_pt, double y_pt, double width_pt) const;
+    void photo(const document::Photo& photo, double x_pt, double y_pt, double width_pt) const;
 
     /// Sets a link target at a height.
     void place(const std::string& id, double y_pt) const;
@@ -80,6 +82,7 @@ private:
     double bottom_pt() const { return paper_.height_pt - bottom_margin_pt; }
     void draw_map_surround() const;
     void begin_page();
+    void paint(cairo_surface_t& image, double x_pt, double y_pt, double scale) const;
 
     const Document& document_;
     Paper paper_;

@@ -130,7 +130,7 @@ protected:
         Keys keys;
         for (const auto& record :
              survey_of(RoadStore::open(store_), filter_of(report_command, words)).measured) {
-            keys.insert(name_of(record.segment.key));
+            keys.insert(name_of(record.key));
         }
         return keys;
     }

@@ -1,5 +1,6 @@
 // `macadam report` and `query --worst` as users run them.
 
+#include "support/files/sample_photo.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -51,6 +52,14 @@ protected:
         const auto run = run_macadam({"report", store, "-o", out(name), "--title", "A <road>"});
         EXPECT_EQ(run.exit_status, 0) << run.err;
         return read_file(out(name));
+    }
+
+    /// Returns the midpoint of the worst section.
+    GeoPoint worst_place() const {
+        const auto run = run_macadam({"query", store_, "--worst", "1", "--format", "json"});
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        const auto worst = nlohmann::json::parse(run.out).at(0);
+        return {worst.at("lat_deg").get<double>(), worst.at("lon_deg").get<double>()};
     }
 
     /// Returns the position of the beginning of a measured segment, "LAT,LON".
@@ -119,6 +128,46 @@ TEST_F(ReportProgram, WritesAPdfWithTheSameBytesForTheSameStore) {
     const auto once = report(store_, "a.pdf");
     EXPECT_THAT(once.substr(0, 5), "%PDF-");
     EXPECT_TRUE(once == report(store_, "b.pdf")); // too long to print
+}
+
+TEST_F(ReportProgram, ShowsPhotosAtTheWorstSectionsAndTellsOfTheOthers) {
+    const auto photos = folder_ / "photos";
+    fs::create_directories(photos / "subfolder");
+    const auto [lat_deg, lon_deg] = worst_place();
+    constexpr double deg_per_m = 1 / 111'200.0;
+    for (const double north_m : {2, 4, 8, 16, 500}) {
+        write_photo_at(photos / fmt::format("{:03.0f}-m.jpg", north_m),
+                       {lat_deg + north_m * deg_per_m, lon_deg});
+    }
+    write_file(photos / "notes.txt", "no photo");
+    const auto shown_in = [&](const std::string& name) {
+        const auto run =
+            run_macadam({"report", store_, "-o", out(name), "--photos", photos.string()});
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("notes.txt: is not a JPEG"));
+        EXPECT_THAT(run.err,
+                    HasSubstr("photos: 3 of 6 shown at worst sections, 1 farther than 30 m from "
+                              "all, 1 beyond the nearest 3 of a section, 1 skipped"));
+        EXPECT_THAT(run.err, HasSubstr("photos may show people and number plates"));
+        return read_file(out(name));
+    };
+    const auto html = shown_in("photos.html");
+    std::size_t shown = 0;
+    for (auto at = html.find("data:image/jpeg;"); at != std::string::npos;
+         at = html.find("data:image/jpeg;", at + 1)) {
+        ++shown;
+    }
+    EXPECT_EQ(shown, 3U);
+    EXPECT_THAT(html, HasSubstr("Photo of 2026-03-12, 2 m from the road"));
+    EXPECT_THAT(html, Not(HasSubstr("500-m")));
+    EXPECT_THAT(shown_in("photos.pdf").substr(0, 5), "%PDF-");
+}
+
+TEST_F(ReportProgram, RefusesPhotosThatAreNoFolderBeforeItReadsAnything) {
+    const auto run =
+        run_macadam({"report", store_, "-o", out("a.html"), "--photos", out("nowhere")});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("nowhere: is no folder, expected a folder of photos"));
 }
 
 TEST_F(ReportProgram, SaysWhatCannotBeCompared) {

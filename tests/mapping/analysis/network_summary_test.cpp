@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -15,16 +16,18 @@ using ::testing::SizeIs;
 const ClassTable& fhwa = *class_table("fhwa");
 constexpr double exact = 1e-9; // sums of doubles in another order
 
-SegmentRecord
-segment(const std::string& highway, double length_m, IriUm iri_um, std::int32_t passes = 1) {
+MeasuredSegment
+segment(std::string_view highway, double length_m, IriUm iri_um, std::int32_t passes = 1) {
     static std::uint32_t index = 0;
-    SegmentState state{};
-    state.segment = {1, true, ++index};
-    state.iri_um = iri_um;
-    state.sd_um = iri_um / 5;
-    state.passes = passes;
-    state.vehicles = 1;
-    return {{state.segment, 0, length_m, {}}, "", highway, state};
+    MeasuredSegment segment{};
+    segment.key = {1, true, ++index};
+    segment.to_m = length_m;
+    segment.highway = highway;
+    segment.iri_um = iri_um;
+    segment.sd_um = iri_um / 5;
+    segment.passes = passes;
+    segment.vehicles = 1;
+    return segment;
 }
 
 TEST(NetworkSummary, AddsUpLengthAndCoverageByKindOfRoad) {
@@ -59,7 +62,7 @@ TEST(NetworkSummary, WeightsTheMeanByLength) {
 
 TEST(NetworkSummary, HasThePercentilesOfALongRowOfMetres) {
     std::mt19937 random{3};
-    std::vector<SegmentRecord> measured;
+    std::vector<MeasuredSegment> measured;
     std::vector<double> metres; // the same road, metre by metre
     for (int i = 0; i < 200; ++i) {
         const int length_m = 1 + static_cast<int>(random() % 40);
