@@ -3,6 +3,7 @@
 #include "app/import/trip_progress.hpp"
 #include "app/pipeline/single_trip.hpp"
 
+#include "storage/trips/log/trip_meta.hpp"
 #include "storage/trips/trip_reader.hpp"
 
 #include <fmt/format.h>
@@ -54,6 +55,7 @@ TripRecord record_of(const TripSource& source,
     record.rows_read = report.rows.read;
     record.rows_used = report.rows.used;
     record.row_reasons = report.rows.reasons;
+    record.trimmed_mm = thousandths(trimmed_before_m(meta));
     return record;
 }
 

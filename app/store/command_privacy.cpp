@@ -31,9 +31,13 @@ void run_privacy(const Arguments& arguments, const Console& console) {
     auto store = opened_store(file, console);
     const auto progress = console.progress("trimming");
     const auto made = store.maintenance.make_crowd(progress);
-    print_words(fmt::format("now a crowd database: {} trimmed, {} deleted\n",
+    print_words(fmt::format("now a crowd database: {} trimmed, {} deleted{}\n",
                             counted(made.trips, "trip"),
-                            counted(made.passes, "pass")));
+                            counted(made.passes, "pass"),
+                            made.trimmed_before == 0
+                                ? ""
+                                : fmt::format("; {} had been trimmed when recorded",
+                                              counted(made.trimmed_before, "trip"))));
     console.say("nothing can be exported before 'macadam publish'; earlier exports and copies "
                 "are not affected");
     if (!made.log_is_clean) {
@@ -57,7 +61,8 @@ const Command privacy_command{
         "as if the trips had\n"
         "been imported into a database made by 'init --privacy crowd'; since the database "
         "keeps no positions, it\n"
-        "deletes more than an import would. From then on only publications can be exported. "
+        "deletes more than an import would. Trips whose logs state that they were trimmed stay "
+        "as they are. From then on only publications can be exported. "
         "This cannot be undone.",
     .example = "  macadam privacy roads.gpkg crowd",
     .operands = operands,

@@ -32,7 +32,8 @@ std::int64_t write_trip(Database& database, const TripRecord& trip, const std::s
     database
         .prepare("INSERT INTO trip (sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,"
                  " method, distance_mm, matched_mm, rows_read, rows_used, reference_ppm,"
-                 " reference_row_mm) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+                 " reference_row_mm, trimmed_mm)"
+                 " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .run(trip.sha256,
              without_vehicle_id(trip.trip_id, trip.vehicle_id),
              vehicle,
@@ -45,7 +46,8 @@ std::int64_t write_trip(Database& database, const TripRecord& trip, const std::s
              static_cast<std::int64_t>(trip.rows_read),
              static_cast<std::int64_t>(trip.rows_used),
              reference_ppm,
-             reference_row_mm);
+             reference_row_mm,
+             trip.trimmed_mm);
     return database.number("SELECT last_insert_rowid()");
 }
 

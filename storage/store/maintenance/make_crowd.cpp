@@ -24,14 +24,15 @@ namespace {
 struct CarTrip {
     std::int64_t row;
     std::string sha256;
+    std::int64_t trimmed_mm; ///< by its recorder
 };
 
 std::vector<CarTrip> trips_of_cars(Database& database) {
-    auto select =
-        database.prepare("SELECT id, sha256 FROM trip WHERE reference_ppm IS NULL ORDER BY id");
+    auto select = database.prepare(
+        "SELECT id, sha256, trimmed_mm FROM trip WHERE reference_ppm IS NULL ORDER BY id");
     std::vector<CarTrip> trips;
     while (select.step()) {
-        trips.push_back({select.integer(0), select.text(1)});
+        trips.push_back({select.integer(0), select.text(1), select.integer(2)});
     }
     return trips;
 }
@@ -185,13 +186,19 @@ CrowdMade StoreMaintenance::make_crowd(const Progress& progress) {
                    "database made from a map");
         }
         const auto trips = trips_of_cars(database);
+        const double least_mm = 1000 * crowd_trim(*store_->key).min_m;
         TripEraser eraser{database, *store_->key};
         for (const auto& trip : trips) {
             if (progress.stop.stop_requested()) {
                 refuse("interrupted; the database is unchanged");
             }
-            made.passes += eraser.trim(trip);
-            progress(++made.trips, trips.size());
+            if (static_cast<double>(trip.trimmed_mm) >= least_mm) { // as an import takes it
+                ++made.trimmed_before;
+            } else {
+                ++made.trips;
+                made.passes += eraser.trim(trip);
+            }
+            progress(made.trips + made.trimmed_before, trips.size());
         }
         database.run(begin_anew);
         replace_roughness_layer(database, PrivacyProfile::crowd);

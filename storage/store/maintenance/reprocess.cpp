@@ -29,6 +29,7 @@ CREATE TEMP TABLE IF NOT EXISTS staged_trip (
     matched_mm INTEGER NOT NULL,
     rows_read INTEGER NOT NULL,
     rows_used INTEGER NOT NULL,
+    trimmed_mm INTEGER NOT NULL,
     generation INTEGER NOT NULL
 );
 CREATE TEMP TABLE IF NOT EXISTS staged_pass AS SELECT * FROM main.pass WHERE 0;
@@ -70,14 +71,14 @@ INSERT OR IGNORE INTO segment_dirty
     SELECT segment FROM pass WHERE trip IN (SELECT trip FROM staged_trip);
 INSERT OR IGNORE INTO strip_dirty
     SELECT strip FROM trace WHERE trip IN (SELECT trip FROM staged_trip);
-UPDATE trip SET (vehicle_model, method, distance_mm, matched_mm, rows_read, rows_used) =
-    (SELECT vehicle_model, method, distance_mm, matched_mm, rows_read, rows_used
+UPDATE trip SET (vehicle_model, method, distance_mm, matched_mm, rows_read, rows_used, trimmed_mm) =
+    (SELECT vehicle_model, method, distance_mm, matched_mm, rows_read, rows_used, trimmed_mm
      FROM staged_trip WHERE staged_trip.trip = trip.id)
     WHERE id IN (SELECT trip FROM staged_trip);
 )";
 
 void stage_record(Database& database, std::int64_t row, const TripRecord& trip) {
-    database.prepare("INSERT OR REPLACE INTO staged_trip VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")
+    database.prepare("INSERT OR REPLACE INTO staged_trip VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .run(row,
              trip.sha256,
              trip.vehicle_model,
@@ -86,6 +87,7 @@ void stage_record(Database& database, std::int64_t row, const TripRecord& trip) 
              trip.matched_mm,
              static_cast<std::int64_t>(trip.rows_read),
              static_cast<std::int64_t>(trip.rows_used),
+             trip.trimmed_mm,
              std::int64_t{read_generation(database)});
     for (const char* const sql : {"DELETE FROM staged_pass WHERE trip = ?",
                                   "DELETE FROM staged_trace WHERE trip = ?",

@@ -27,8 +27,9 @@ struct Publication {
 
 /// Data removed when a database of own cars became a crowd database.
 struct CrowdMade {
-    std::size_t trips = 0;
-    std::size_t passes = 0; ///< removed
+    std::size_t trips = 0;          ///< trimmed
+    std::size_t passes = 0;         ///< removed
+    std::size_t trimmed_before = 0; ///< trips that their recorders had trimmed, left as they are
     bool log_is_clean =
         true; ///< false: the WAL still holds the removed data, because others are reading
 };

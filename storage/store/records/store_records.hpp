@@ -22,6 +22,14 @@
 
 namespace macadam {
 
+inline constexpr std::int64_t max_kept_logs_days = 3650;
+
+/// Rule by which a server keeps logs of a crowd, encrypted (storage/uploads/kept_logs.hpp).
+struct LogKeeping {
+    std::int64_t days = 0;    ///< after it came; 0: a log is erased once it was imported
+    std::string public_key{}; ///< 64 hex digits
+};
+
 /// Settings with which a database is created.
 struct StoreSettings {
     double segment_length_m = 20;
@@ -30,6 +38,7 @@ struct StoreSettings {
     std::string attribution;    ///< copyright notice for pictures of these roads
     PrivacyProfile privacy = PrivacyProfile::own;
     std::int64_t max_trips_per_car_month = 0; ///< of a car that are fused over a segment; 0: all
+    LogKeeping kept_logs{};
 };
 
 /// Replaces the name of the map for roads from `init --trace`.
@@ -59,6 +68,7 @@ struct TripRecord {
     std::size_t rows_read = 0;
     std::size_t rows_used = 0;
     std::map<std::string, std::size_t> row_reasons{}; ///< reasons for which rows were not used
+    std::int64_t trimmed_mm = 0; ///< left out at ends and long stops by the recorder, as it states
 
     /// Set for a survey: then trip_id is its name, t0_utc_ms its day, and vehicle_id is empty.
     std::optional<ReferenceNote> reference{};

@@ -32,7 +32,8 @@ constexpr const char* state_columns = R"(
     flags INTEGER NOT NULL
 )";
 
-// Column types are those of a GeoPackage; it forbids STRICT, which has other types.
+// Column types are those of a GeoPackage; it forbids STRICT, which has other types. A column that
+// came later stands where ALTER TABLE puts it, so that upgraded databases have the same text.
 constexpr const char* tables = R"(
 CREATE TABLE meta (
     key TEXT PRIMARY KEY NOT NULL,
@@ -99,7 +100,7 @@ CREATE TABLE trip (
     calibrates INTEGER NOT NULL DEFAULT 0,
     reference_ppm INTEGER,
     reference_row_mm INTEGER
-);
+, {1});
 CREATE TABLE pass (
     segment INTEGER NOT NULL REFERENCES segment(fid),
     trip INTEGER NOT NULL REFERENCES trip(id),
@@ -296,7 +297,7 @@ CREATE TABLE published_event (
 } // namespace
 
 std::string store_tables() {
-    return fmt::format(tables, state_columns);
+    return fmt::format(tables, state_columns, trimmed_column);
 }
 
 std::string roughness_layer(PrivacyProfile privacy) {

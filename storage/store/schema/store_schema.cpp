@@ -68,6 +68,10 @@ void write_meta(Database& database,
     put(database, "network_m", fmt::format("{}", written.length_m));
     put(database, "generation", "1");
     put(database, "privacy", name_of(settings.privacy));
+    if (settings.kept_logs.days > 0) {
+        put(database, "kept_logs_days", fmt::format("{}", settings.kept_logs.days));
+        put(database, "kept_logs_key", settings.kept_logs.public_key);
+    }
     if (settings.max_trips_per_car_month > 0) {
         database.prepare("INSERT INTO fusion_setting VALUES (?, ?)")
             .run(max_trips_key, settings.max_trips_per_car_month);
@@ -180,6 +184,14 @@ StoreSettings read_settings(Database& database) {
     if (!(settings.segment_length_m >= min_segment_m &&
           settings.segment_length_m <= max_segment_m)) {
         refuse("segment_length_m", "a length of segments");
+    }
+    if (const auto text = meta(database, "kept_logs_days"); !text.empty()) {
+        const auto days = exact_number<std::int64_t>(text);
+        if (!days || *days < 1 || *days > max_kept_logs_days) {
+            refuse("kept_logs_days", fmt::format("1 to {}", max_kept_logs_days));
+        }
+        settings.kept_logs.days = *days;
+        settings.kept_logs.public_key = meta(database, "kept_logs_key");
     }
     settings.max_trips_per_car_month = read_max_trips_per_car_month(database);
     return settings;

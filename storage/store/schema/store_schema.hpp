@@ -46,7 +46,7 @@ void check_store(Database& database);
 
 /// Version of the database format that 'macadam init' creates, and the oldest one that can be
 /// upgraded.
-inline constexpr int store_version = 6;
+inline constexpr int store_version = 7;
 inline constexpr int oldest_store_version = 2;
 
 /// Reads the settings.

@@ -1,5 +1,9 @@
 #include "storage/store/schema/store_versions.hpp"
 
+#include "storage/store/schema/schema_sql.hpp"
+
+#include <fmt/format.h>
+
 #include <string_view>
 
 namespace macadam {
@@ -15,11 +19,21 @@ std::string with_times(std::string sql) {
     return sql;
 }
 
+/// Returns the definition of table trip before version 7.
+std::string without_trimmed_column(std::string sql) {
+    const auto column = fmt::format(", {}", trimmed_column);
+    return sql.erase(sql.find(column), column.size());
+}
+
 } // namespace
 
 Schema schema_of_version(int version, PrivacyProfile privacy) {
     // Before version 5, the layer of every database had all fused values.
     auto schema = own_schema(version <= 4 ? PrivacyProfile::own : privacy);
+    if (version <= 6) {
+        auto& trip = schema.at({"table", "trip"});
+        trip.sql = without_trimmed_column(trip.sql);
+    }
     if (version <= 2) {
         auto& state = schema.at({"table", "segment_state"});
         state.sql = with_times(state.sql);

@@ -256,7 +256,14 @@ struct Migration {
     const char* sql;
 };
 
-const std::array migrations{Migration{2, "queue for workers", job_schema}};
+/// A new database has the column from its table's definition.
+constexpr const char* trimmed_lengths = R"(
+ALTER TABLE macadam.trip ADD COLUMN IF NOT EXISTS trimmed_mm bigint NOT NULL DEFAULT 0;
+COMMENT ON COLUMN macadam.trip.trimmed_mm IS 'Left out at ends and long stops by the recorder, mm';
+)";
+
+const std::array migrations{Migration{2, "queue for workers", job_schema},
+                            Migration{3, "lengths that recorders trimmed", trimmed_lengths}};
 
 void run_migrations_after(int version, ServerConnection& server) {
     for (const auto& [number, what, sql] : migrations) {

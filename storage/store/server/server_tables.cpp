@@ -59,7 +59,10 @@ constexpr std::array trip{
     ServerColumn{"rows_used", "bigint NOT NULL", "Of these, used"},
     ServerColumn{"calibrates", "bigint NOT NULL DEFAULT 0", "1: its passes calibrated the car"},
     ServerColumn{"reference_ppm", "bigint", "Accuracy of a survey, ppm; NULL for cars"},
-    ServerColumn{"reference_row_mm", "bigint", "Median length of a survey's rows, mm"}};
+    ServerColumn{"reference_row_mm", "bigint", "Median length of a survey's rows, mm"},
+    ServerColumn{"trimmed_mm",
+                 "bigint NOT NULL DEFAULT 0",
+                 "Left out at ends and long stops by the recorder, mm"}};
 
 constexpr std::array drive{
     ServerColumn{"cell", "integer NOT NULL", cell_meaning},

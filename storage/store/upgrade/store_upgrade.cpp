@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int first_version_with_key = 3;
+constexpr int first_version_with_trimmed_lengths = 7;
 
 /// Checks the free disk space: new rows are written beside the old ones, and the journal holds the
 /// pages of both.
@@ -143,6 +144,9 @@ StoreUpgrade upgrade_store(const fs::path& file,
         done.trips = shorten_trip_names(database, progress("removing vehicle ids from file names"));
         done.cars = name_cars(database, key->key());
         put_settings_of_version_3(database, key->key().id());
+    }
+    if (done.from_version < first_version_with_trimmed_lengths) {
+        add_trimmed_lengths(database);
     }
     add_missing_objects(database);
     replace_roughness_layer(database, claimed_privacy(database));

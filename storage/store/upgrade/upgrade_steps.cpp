@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/store/privacy/trip_names.hpp"
 #include "storage/store/schema/schema_check.hpp"
+#include "storage/store/schema/schema_sql.hpp"
 #include "storage/store/schema/store_schema.hpp"
 
 #include <fmt/format.h>
@@ -124,6 +125,10 @@ std::size_t name_cars(Database& database, const PrivacyKey& key) {
 void put_settings_of_version_3(Database& database, const std::string& key_id) {
     database.run("INSERT OR REPLACE INTO meta VALUES ('privacy', 'own')");
     put_key_id(database, key_id);
+}
+
+void add_trimmed_lengths(Database& database) {
+    database.run(fmt::format("ALTER TABLE trip ADD COLUMN {}", trimmed_column));
 }
 
 void put_version(Database& database) {

@@ -26,6 +26,11 @@ std::size_t name_cars(Database& database, const PrivacyKey& key);
 /// Adds to table meta the profile own, which all former databases had, and the id of the key.
 void put_settings_of_version_3(Database& database, const std::string& key_id);
 
+// ------------------------------------------------------------------------- version 6 to 7
+
+/// Adds what recorders of trips left out; of trips so far it is unknown, so 0.
+void add_trimmed_lengths(Database& database);
+
 // -------------------------------------------------------------------------- to any version
 
 /// Creates the tables, indexes, views and triggers that were added since.

@@ -255,8 +255,11 @@ std::string meta_text(const TripMeta& meta) {
 }
 
 double trimmed_before_m(const TripMeta& meta) {
+    constexpr double most_m = 1e6; // more says no more
     const auto stated = meta.other.find(trimmed_key);
-    return stated == meta.other.end() ? 0 : parse_number(stated->second).value_or(0);
+    const double stated_m =
+        stated == meta.other.end() ? 0 : parse_number(stated->second).value_or(0);
+    return stated_m > 0 ? std::min(stated_m, most_m) : 0; // also for what is no number
 }
 
 TripMeta parse_meta(const std::vector<MetaLine>& lines) {

@@ -25,7 +25,7 @@ TripMeta parse_meta(const std::vector<MetaLine>& lines);
 std::string meta_text(const TripMeta& meta);
 
 /// Length that the recorder left out at both ends of the trip and on both sides of long stops, as
-/// `trimmed_m` of the log states it; 0 if it states none.
+/// `trimmed_m` of the log states it; 0 if it states none. At most 1,000 km.
 double trimmed_before_m(const TripMeta& meta);
 
 } // namespace macadam

@@ -46,6 +46,16 @@ protected:
         run({"import", store_, at("trips"), "--method", "kf", "--vehicle", "golden-car"});
     }
 
+    /// Lets the logs state what their recorder left out.
+    void state_trimmed(int length_m) const {
+        for (int number = 0; number < cars; ++number) {
+            const auto log = folder_ / "trips" / fmt::format("{}.trip.csv", number);
+            auto text = read_file(log);
+            text.insert(text.find('\n') + 1, fmt::format("# trimmed_m: {}\n", length_m));
+            write_file(log, text);
+        }
+    }
+
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
     static testing::Run run(const std::vector<std::string>& words, int expected = 0) {
@@ -192,6 +202,25 @@ TEST_F(Crowd, ComesOfOnesOwnCarsByTrimmingThem) {
                           "database"));
     run({"publish", store_});
     EXPECT_THAT(exported_ways(), Not(IsEmpty()));
+}
+
+TEST_F(Crowd, ComingOfOnesOwnCarsLeavesTripsAsTheyAreThatWereTrimmedOnThePhone) {
+    state_trimmed(300);
+    make("own");
+    EXPECT_THAT(run({"privacy", store_, "crowd"}).out,
+                HasSubstr("now a crowd database: 0 trips trimmed, 0 passes deleted; 6 trips had "
+                          "been trimmed when recorded"));
+    const auto digest = run({"info", store_, "--digest"}).out;
+    store_ = at("imported.gpkg");
+    make("crowd");
+    EXPECT_EQ(digest, run({"info", store_, "--digest"}).out);
+}
+
+TEST_F(Crowd, ComingOfOnesOwnCarsTrimsTripsAgainThatWereTrimmedTooLittle) {
+    state_trimmed(299);
+    make("own");
+    EXPECT_THAT(run({"privacy", store_, "crowd"}).out,
+                AllOf(HasSubstr("6 trips trimmed"), Not(HasSubstr("had been trimmed"))));
 }
 
 TEST_F(Crowd, ComparesWhatIsPublishedWithoutCarsAndSpeeds) {

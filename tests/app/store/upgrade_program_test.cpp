@@ -54,7 +54,7 @@ TEST_F(UpgradeProgram, IsWhatEveryOtherCommandAsksFor) {
         const auto refused = run(command, words);
         EXPECT_EQ(refused.exit_status, 1) << command;
         EXPECT_THAT(refused.err,
-                    HasSubstr("is a database of version 2, expected version 6: run 'macadam "
+                    HasSubstr("is a database of version 2, expected version 7: run 'macadam "
                               "upgrade " +
                               store_ + "', which keeps all content"));
     }
@@ -66,7 +66,7 @@ TEST_F(UpgradeProgram, KeepsTheDigestAndNamesTheCarsUnderAKey) {
     ASSERT_EQ(done.exit_status, 0) << done.err;
     const auto json = Json::parse(done.out);
     EXPECT_EQ(json["from_version"], 2);
-    EXPECT_EQ(json["to_version"], 6);
+    EXPECT_EQ(json["to_version"], 7);
     EXPECT_EQ(json["cars"], 2);
     EXPECT_EQ(json["trips_renamed"], 5);
     EXPECT_EQ(json["digest"], digest_of_version_2);
@@ -78,7 +78,7 @@ TEST_F(UpgradeProgram, KeepsTheDigestAndNamesTheCarsUnderAKey) {
     const auto key = *read_key(store_ + ".key");
     EXPECT_EQ(info["vehicles"][0], key.pseudonym("van-7"));
     EXPECT_EQ(info["vehicles"][1], key.pseudonym("van-8"));
-    EXPECT_THAT(run("info", {"--audit"}).out, HasSubstr("from version 2 to 6"));
+    EXPECT_THAT(run("info", {"--audit"}).out, HasSubstr("from version 2 to 7"));
     EXPECT_EQ(run("forget", {"--trip", "van-7-0002"}).exit_status, 0);
     EXPECT_EQ(run("forget", {"--vehicle-id", "van-8"}).exit_status, 0);
 }
@@ -98,12 +98,12 @@ TEST_F(UpgradeProgram, LeavesNoByteOfOldNamesOrTimes) {
 
 TEST_F(UpgradeProgram, HasNothingToDoASecondTime) {
     EXPECT_THAT(run("upgrade").out,
-                HasSubstr("upgraded from version 2 to 6; 2 cars "
+                HasSubstr("upgraded from version 2 to 7; 2 cars "
                           "pseudonymised with the key"));
     const auto content = read_file(store_);
     const auto again = run("upgrade");
     EXPECT_EQ(again.exit_status, 0);
-    EXPECT_THAT(again.out, HasSubstr("roads.gpkg: is already of version 6, nothing to do"));
+    EXPECT_THAT(again.out, HasSubstr("roads.gpkg: is already of version 7, nothing to do"));
     EXPECT_EQ(read_file(store_), content);
 }
 
@@ -111,10 +111,11 @@ TEST_F(UpgradeProgram, TellsToSearchForPotholesOnlyWhereTheVersionHadNone) {
     const auto background = "run 'macadam init " + store_ + " --update MAP' for water";
     EXPECT_THAT(run("upgrade").out,
                 AllOf(HasSubstr("run 'macadam reprocess'"), HasSubstr(background)));
-    Database{store_, Database::Access::write}.run("UPDATE meta SET value = '5' WHERE key = "
-                                                  "'version'");
+    Database{store_, Database::Access::write}.run(
+        "ALTER TABLE trip DROP COLUMN trimmed_mm;"
+        " UPDATE meta SET value = '5' WHERE key = 'version'");
     EXPECT_THAT(run("upgrade").out,
-                AllOf(HasSubstr("upgraded from version 5 to 6"),
+                AllOf(HasSubstr("upgraded from version 5 to 7"),
                       Not(HasSubstr("reprocess")),
                       HasSubstr(background)));
 }
@@ -128,11 +129,11 @@ TEST_F(UpgradeProgram, RefusesAStoreOfANewerProgramOrWithViewsOfOthers) {
                 HasSubstr("contains a view 'x' that does not belong to "
                           "Macadam"));
     EXPECT_THAT(run("info").err, HasSubstr("contains a view 'x' that does not belong to Macadam"));
-    change("DROP VIEW x; UPDATE meta SET value = '7' WHERE key = 'version'");
+    change("DROP VIEW x; UPDATE meta SET value = '8' WHERE key = 'version'");
     const auto newer = run("upgrade");
     EXPECT_EQ(newer.exit_status, 1);
     EXPECT_THAT(newer.err,
-                HasSubstr("is a database of version '7', expected version 6: it was made by a "
+                HasSubstr("is a database of version '8', expected version 7: it was made by a "
                           "newer version of Macadam"));
     EXPECT_FALSE(fs::exists(store_ + ".key"));
 }

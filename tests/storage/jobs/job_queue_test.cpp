@@ -332,14 +332,16 @@ TEST_F(JobQueue, IsForImportersAndOperatorsAlone) {
 
 TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
     queue().run("DROP TABLE macadam.job, macadam.worker, macadam.work_setting;"
+                " ALTER TABLE macadam.trip DROP COLUMN trimmed_mm;"
                 " DELETE FROM macadam.migration WHERE number > 1");
     EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
-                AllOf(HasSubstr("its schema is of version 1, expected 2"),
+                AllOf(HasSubstr("its schema is of version 1, expected 3"),
                       HasSubstr("macadam upgrade postgresql://")));
     EXPECT_EQ(upgrade_server_schema(queue()), 1);
-    EXPECT_EQ(upgrade_server_schema(queue()), 2);
+    EXPECT_EQ(upgrade_server_schema(queue()), 3);
     expect_server_schema(queue());
     EXPECT_THAT(submit_logs(queue(), logs(1)), SizeIs(1));
+    EXPECT_EQ(queue().number("SELECT coalesce(sum(trimmed_mm), 0) FROM macadam.trip"), 0);
 }
 
 TEST_F(JobQueue, IsSearchedByItsIndexes) {

@@ -117,7 +117,8 @@ private:
                      std::to_string(trip.rows_read),
                      std::to_string(trip.rows_used),
                      std::nullopt,
-                     std::nullopt};
+                     std::nullopt,
+                     std::to_string(trip.trimmed_mm)};
         if (trip.reference) {
             values[11] = std::to_string(trip.reference->relative_sd_ppm);
             values[12] = std::to_string(trip.reference->row_mm);
@@ -128,7 +129,8 @@ private:
         const auto found = server_->numbers(
             "INSERT INTO macadam.trip AS trip (sha256, trip_id, vehicle, file_name, t0_utc_ms,"
             " vehicle_model, method, distance_mm, matched_mm, rows_read, rows_used, reference_ppm,"
-            " reference_row_mm) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13)"
+            " reference_row_mm, trimmed_mm) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11,"
+            " $12, $13, $14)"
             " ON CONFLICT (sha256) DO UPDATE SET trip_id = trip.trip_id"
             " RETURNING id, (trip.xmax = 0)::integer",
             values);

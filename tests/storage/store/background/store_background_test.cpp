@@ -144,13 +144,14 @@ TEST(StoreBackground, OfADatabaseOfVersion5IsEmptyUntilItIsPut) {
                      " ('background', 'place', 'road_ref');"
                      "DELETE FROM gpkg_contents WHERE table_name IN"
                      " ('background', 'place', 'road_ref');"
+                     "ALTER TABLE trip DROP COLUMN trimmed_mm;"
                      "UPDATE meta SET value = '5' WHERE key = 'version'");
     }
     EXPECT_THAT(refusal_of([&] { StoreReader::open(file); }),
-                HasSubstr("is a database of version 5, expected version 6: run 'macadam upgrade"));
+                HasSubstr("is a database of version 5, expected version 7: run 'macadam upgrade"));
     const auto done = upgrade_store(file, {}, [](auto) { return Progress{}; });
     EXPECT_EQ(done.from_version, 5);
-    EXPECT_EQ(done.to_version, 6);
+    EXPECT_EQ(done.to_version, 7);
     EXPECT_EQ(done.digest, digest);
     Database database{file, Database::Access::read};
     EXPECT_EQ(database.number("SELECT count(*) - count(DISTINCT table_name) FROM gpkg_extensions"

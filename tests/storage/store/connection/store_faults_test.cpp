@@ -333,7 +333,7 @@ TEST(StoreFaults, OfOtherGeoPackagesAndVersionsAreNamed) {
     new_store(folder / "a.gpkg");
     Database{folder / "a.gpkg", Database::Access::write}.run(
         "UPDATE meta SET value = '1' WHERE key = 'version'");
-    EXPECT_THAT(refusal(), HasSubstr("is a database of version '1', expected version 6"));
+    EXPECT_THAT(refusal(), HasSubstr("is a database of version '1', expected version 7"));
 }
 
 /// What any tool for SQLite can do to a store.

@@ -203,10 +203,10 @@ TEST(Publication, IsTheLayerOfACrowdThatWasUpgraded) {
     crowd.drive_all(6, january_ms);
     Database{crowd.file, Database::Access::write}.run(
         "DROP VIEW roughness;" + own_schema(PrivacyProfile::own).at({"view", "roughness"}).sql +
-        ";UPDATE meta SET value = '4' WHERE key = 'version'");
+        ";ALTER TABLE trip DROP COLUMN trimmed_mm; UPDATE meta SET value = '4' WHERE key = 'version'");
     ASSERT_EQ(crowd.layer_rows(), 30);
     const auto done = upgrade_store(crowd.file, {}, [](auto) { return Progress{}; });
-    EXPECT_EQ(done.to_version, 6);
+    EXPECT_EQ(done.to_version, 7);
     EXPECT_EQ(done.digest, crowd.store.digest());
     EXPECT_EQ(crowd.layer_rows(), 0);
     crowd.publish(february_ms);

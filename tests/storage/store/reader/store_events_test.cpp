@@ -221,13 +221,14 @@ TEST(StoreEvents, OfADatabaseOfVersion3AreNoneUntilItIsReprocessed) {
     {
         Database database{file, Database::Access::write};
         database.run("DROP TABLE event; DROP TABLE event_search; DROP TABLE published_event;"
+                     "ALTER TABLE trip DROP COLUMN trimmed_mm;"
                      "UPDATE meta SET value = '3' WHERE key = 'version'");
     }
     EXPECT_THAT(refusal_of([&] { StoreReader::open(file); }),
-                HasSubstr("is a database of version 3, expected version 6: run 'macadam upgrade"));
+                HasSubstr("is a database of version 3, expected version 7: run 'macadam upgrade"));
     const auto done = upgrade_store(file, {}, [](auto) { return Progress{}; });
     EXPECT_EQ(done.from_version, 3);
-    EXPECT_EQ(done.to_version, 6);
+    EXPECT_EQ(done.to_version, 7);
     EXPECT_EQ(done.cars, 0U);
     EXPECT_FALSE(done.made_key);
     EXPECT_EQ(done.digest, digest);

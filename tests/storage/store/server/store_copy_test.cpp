@@ -42,6 +42,7 @@ void make_rich_store(const fs::path& file) {
     for (int number = 0; number < 4; ++number) {
         auto trip = trip_record(number);
         trip.row_reasons = {{"too_slow", 7U}};
+        trip.trimmed_mm = 1000 * number;
         auto passes = passes_of(number);
         for (auto& pass : passes) {
             pass.drive = 0;
