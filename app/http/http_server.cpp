@@ -64,8 +64,10 @@ struct Exchange {
 struct HttpServer::Impl final : MhdEvents {
     Impl(HttpServerConfig its_config, HttpHandlers its_handlers)
         : config{std::move(its_config)}, handlers{std::move(its_handlers)} {
-        listening = open_listening_socket(config.host, config.port);
-        port = port_of(listening);
+        const bool is_local = !config.unix_socket.empty();
+        listening = is_local ? open_listening_socket(config.unix_socket)
+                             : open_listening_socket(config.host, config.port);
+        port = is_local ? 0 : port_of(listening);
         lanes.emplace_back(0, config.workers, config.max_waiting);
         auto workers = config.workers;
         for (const auto& lane : config.lanes) {
@@ -75,7 +77,9 @@ struct HttpServer::Impl final : MhdEvents {
         daemon = start_daemon(*this, listening, config);
         if (daemon == nullptr) {
             close(listening);
-            throw InputError{fmt::format("cannot serve on {} port {}", config.host, port)};
+            throw InputError{is_local
+                                 ? fmt::format("cannot serve on {}", config.unix_socket.string())
+                                 : fmt::format("cannot serve on {} port {}", config.host, port)};
         }
     }
 
@@ -347,6 +351,9 @@ struct HttpServer::Impl final : MhdEvents {
     void drain(std::chrono::milliseconds at_most) {
         if (quiesced < 0) {
             quiesced = MHD_quiesce_daemon(daemon);
+            if (!config.unix_socket.empty()) {
+                unlink(config.unix_socket.c_str());
+            }
         }
         end_streams();
         const auto end = Clock::now() + at_most;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,10 +23,11 @@ struct HttpLane {
 
 /// Limits of a server (docs/reference/serve.md).
 struct HttpServerConfig {
-    std::string host = "127.0.0.1"; ///< an address, not a name
-    std::uint16_t port = 8080;      ///< 0: any free one
-    std::size_t workers = 2;        ///< of lane 0
-    std::vector<HttpLane> lanes{};  ///< lanes 1, 2, ..., whose workers have the next numbers
+    std::string host = "127.0.0.1";      ///< an address, not a name
+    std::uint16_t port = 8080;           ///< 0: any free one
+    std::filesystem::path unix_socket{}; ///< listened on in place of host and port, unless empty
+    std::size_t workers = 2;             ///< of lane 0
+    std::vector<HttpLane> lanes{};       ///< lanes 1, 2, ..., whose workers have the next numbers
     bool behind_proxy = false; ///< clients are told apart by the last address of X-Forwarded-For
     std::vector<std::string> hosts{}; ///< accepted in the header Host, beside loopback ones
     std::string allowed_origin{};     ///< of CORS; "" = none
@@ -89,7 +91,7 @@ public:
     HttpServer& operator=(const HttpServer&) = delete;
     ~HttpServer();
 
-    std::uint16_t port() const;
+    std::uint16_t port() const; ///< 0 for a Unix socket
     std::size_t connections() const;
 
     /// Stops listening, and waits until the requests at work are answered, or until the time is

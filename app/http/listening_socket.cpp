@@ -8,11 +8,14 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 namespace macadam {
@@ -43,6 +46,68 @@ int open_listening_socket(const std::string& host, std::uint16_t port) {
     return listening;
 }
 
+namespace {
+
+constexpr mode_t owner_and_group = 0660;
+
+/// Descriptor that is closed unless it is released.
+class OwnedSocket {
+public:
+    explicit OwnedSocket(int number) : number_{number} {}
+    OwnedSocket(const OwnedSocket&) = delete;
+    OwnedSocket& operator=(const OwnedSocket&) = delete;
+    ~OwnedSocket() {
+        if (number_ >= 0) {
+            close(number_);
+        }
+    }
+    int number() const { return number_; }
+    int release() { return std::exchange(number_, -1); }
+
+private:
+    int number_;
+};
+
+/// Removes a socket on which nobody listens any longer.
+void remove_dead_socket(const std::filesystem::path& file, const sockaddr_un& address) {
+    struct stat found {};
+    if (lstat(file.c_str(), &found) != 0 || !S_ISSOCK(found.st_mode)) {
+        return;
+    }
+    const OwnedSocket probe{socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+    const bool is_dead =
+        connect(probe.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
+        errno == ECONNREFUSED;
+    if (is_dead) {
+        unlink(file.c_str());
+    }
+}
+
+} // namespace
+
+int open_listening_socket(const std::filesystem::path& file) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const auto& path = file.native();
+    if (path.empty() || path.size() >= sizeof address.sun_path) {
+        throw InputError{fmt::format("'{}' is no name of a Unix socket, expected 1 to {} bytes",
+                                     path,
+                                     sizeof address.sun_path - 1)};
+    }
+    path.copy(address.sun_path, path.size());
+    remove_dead_socket(file, address);
+    OwnedSocket listening{socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+    // The file gets the permissions of the descriptor less the umask, then all of them.
+    if (listening.number() < 0 || fchmod(listening.number(), owner_and_group) != 0 ||
+        bind(listening.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) !=
+            0 ||
+        chmod(file.c_str(), owner_and_group) != 0 || listen(listening.number(), SOMAXCONN) != 0) {
+        throw InputError{fmt::format(
+            "cannot listen on {}: {}; choose another with --listen", path, std::strerror(errno))};
+    }
+    return listening.release();
+}
+
 std::uint16_t port_of(int listening_socket) {
     sockaddr_storage address{};
     socklen_t size = sizeof address;
@@ -64,6 +129,7 @@ std::string peer_of(int connected_socket) {
     socklen_t size = sizeof address;
     std::array<char, NI_MAXHOST> name{};
     if (getpeername(connected_socket, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
+        address.ss_family == AF_UNIX ||
         getnameinfo(reinterpret_cast<sockaddr*>(&address),
                     size,
                     name.data(),

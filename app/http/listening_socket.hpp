@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -11,7 +12,12 @@ namespace macadam {
 /// \throws InputError  if there is no such address, or its port is in use.
 int open_listening_socket(const std::string& host, std::uint16_t port);
 
-/// Port of a listening socket.
+/// Opens a Unix socket that listens, for its owner and group alone (0660). One that a killed server
+/// left is replaced.
+/// \throws InputError  if the path is too long or another file's, or a server listens there.
+int open_listening_socket(const std::filesystem::path& file);
+
+/// Port of a listening TCP socket.
 std::uint16_t port_of(int listening_socket);
 
 /// Tests for an address that only this machine can reach.

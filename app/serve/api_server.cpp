@@ -13,6 +13,7 @@
 #include "app/uploads/upload_workers.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/utc.hpp"
+#include "storage/uploads/upload_database.hpp"
 
 #include <fmt/format.h>
 
@@ -180,12 +181,18 @@ void serve_database(const std::filesystem::path& file,
     LiveContent live{file, audience, console};
     PictureTiles pictures{file, audience, console};
     Pages pages{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
+    Pages of_operator{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
     UploadWorkers workers{{.store = file, .arguments = upload_arguments(reception.import_words)},
                           reception.workers,
                           console};
-    TripsApi trips{file, {.base = address.base}, [&] { workers.wake(); }};
+    if (!reception.staff_header.empty()) {
+        make_uploads_folder(file); // which staff use without a token
+    }
+    TripsApi trips{file, {.base = address.base, .staff_header = reception.staff_header}, [&] {
+                       workers.wake();
+                   }};
     const auto follow = [&] {
         live.refresh(store.version(), store.shows_published_alone());
         trips.set_crowd(store.shows_published_alone());
@@ -200,17 +207,18 @@ void serve_database(const std::filesystem::path& file,
         if (TripsApi::has_path(request.path)) {
             return trips.answer(request);
         }
-        const auto version = store.version();
-        const bool is_listing = request.path.starts_with("/collections");
+        const bool is_operator =
+            request.path.starts_with("/collections") && trips.is_of_operator(request);
+        const auto reader = is_operator ? Audience::operator_ : Audience::anyone;
+        const auto version = store.version(reader);
         try {
-            auto response =
-                answer_reading(pages,
-                               {.request = request,
-                                .store = store.reader(worker),
-                                .version = version,
-                                .base = base_of(request, address),
-                                .is_operator = is_listing && trips.is_of_operator(request),
-                                .trips_version = store.trips_version()});
+            auto response = answer_reading(is_operator ? of_operator : pages,
+                                           {.request = request,
+                                            .store = store.reader(worker, reader),
+                                            .version = version,
+                                            .base = base_of(request, address),
+                                            .is_operator = is_operator,
+                                            .trips_version = store.trips_version()});
             if (reception.only_with_token) {
                 keep_private(response);
             }

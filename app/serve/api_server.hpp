@@ -25,11 +25,12 @@ struct ServedAddress {
 struct TripReception {
     std::size_t workers = 1;                 ///< threads; 0: `macadam worker` does it
     std::vector<std::string> import_words{}; ///< upload_arguments()
+    std::string staff_header{};              ///< TripsApiConfig::staff_header
     bool only_with_token = false; ///< also to read, but for the recorder, /health and /metrics
 };
 
 /// Serves a database until a stop is requested: OGC API, tiles, trips, /health and /metrics.
-/// \param started   called with the port when requests are answered
+/// \param started   called with the port (0 for a Unix socket) when requests are answered
 /// \param sections  those of the collection sections; `std::nullopt`: there is none
 /// \throws InputError  if the file is no database or the address is in use.
 void serve_database(const std::filesystem::path& file,

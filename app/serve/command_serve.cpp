@@ -9,6 +9,8 @@
 #include "app/query/section_options.hpp"
 #include "app/query/section_query.hpp"
 #include "app/serve/api_server.hpp"
+#include "estimator/common/ascii.hpp"
+#include "estimator/common/error.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +24,16 @@
 namespace macadam {
 namespace {
 
-/// Parses "127.0.0.1:8080" or "[::1]:8080".
+/// Parses "127.0.0.1:8080", "[::1]:8080" or "unix:/run/macadam/web".
 void parse_listen(const std::string& text, HttpServerConfig& config) {
+    constexpr std::string_view local = "unix:";
+    if (text.starts_with(local)) {
+        config.unix_socket = text.substr(local.size());
+        if (config.unix_socket.empty()) {
+            throw UsageError{"--listen is 'unix:', expected a file, such as unix:/run/macadam/web"};
+        }
+        return;
+    }
     const auto colon = text.rfind(':');
     const auto number = colon == std::string::npos ? "" : text.substr(colon + 1);
     const auto* const end = number.data() + number.size();
@@ -78,6 +88,26 @@ TripReception parse_reception(const Arguments& arguments) {
     return reception;
 }
 
+/// Parses the header by which a proxy names members of the staff. Over TCP any local program could
+/// send it.
+std::string parse_staff_header(const Arguments& arguments, const HttpServerConfig& config) {
+    auto header = in_lower_case(arguments.value("--staff-header").value_or(""));
+    if (header.empty()) {
+        return header;
+    }
+    if (config.unix_socket.empty()) {
+        throw UsageError{"--staff-header is believed on a Unix socket only, expected --listen "
+                         "unix:FILE"};
+    }
+    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789-";
+    if (header.find_first_not_of(allowed) != std::string::npos || header == "authorization") {
+        throw UsageError{fmt::format("--staff-header is '{}', expected the name of a header that "
+                                     "the proxy sets, such as X-Forwarded-User",
+                                     header)};
+    }
+    return header;
+}
+
 /// Parses the sections, and cuts them once, so that an invalid file is refused at once.
 std::optional<SectionOptions> parse_served_sections(const Arguments& arguments,
                                                     const std::filesystem::path& store) {
@@ -99,6 +129,11 @@ void run_serve(const Arguments& arguments, const Console& console) {
     config.workers = jobs_of(arguments);
     address.has_access_log = arguments.flag("--access-log");
     const auto started = [&](std::uint16_t port) {
+        if (!config.unix_socket.empty()) {
+            console.say(
+                fmt::format("serving on unix:{}; Ctrl-C ends", config.unix_socket.string()));
+            return;
+        }
         const bool is_v6 = config.host.find(':') != std::string::npos;
         console.say(fmt::format("serving on http://{}{}{}:{}/; Ctrl-C ends",
                                 is_v6 ? "[" : "",
@@ -108,6 +143,9 @@ void run_serve(const Arguments& arguments, const Console& console) {
     };
     const std::filesystem::path given = arguments.operand("STORE");
     if (std::filesystem::is_directory(given)) {
+        if (arguments.is_given("--staff-header")) {
+            throw UsageError{"--staff-header is for a database; a folder is shown to all"};
+        }
         if (arguments.flag("--only-with-token")) {
             throw UsageError{"--only-with-token is for a database; a folder is shown to all"};
         }
@@ -119,7 +157,8 @@ void run_serve(const Arguments& arguments, const Console& console) {
     }
     const auto file = store_file(arguments);
     tell_publication(StoreReader::open(file), console);
-    const auto reception = parse_reception(arguments);
+    auto reception = parse_reception(arguments);
+    reception.staff_header = parse_staff_header(arguments, config);
     const auto sections = parse_served_sections(arguments, file);
     serve_database(file, Audience::anyone, config, address, console, started, reception, sections);
 }
@@ -130,12 +169,17 @@ constexpr std::array operands{
 constexpr std::array options{
     Option{"--listen",
            "HOST:PORT",
-           "Address of this machine, and port; 0 is any free one.",
+           "Address of this machine, and port; 0 is any free one. Or unix:FILE, a socket for its "
+           "owner and group.",
            "127.0.0.1:8080"},
     Option{"--behind-proxy",
            "URL",
            "The public address, if a web server in front passes requests on; it must set "
            "X-Forwarded-For."},
+    rare({"--staff-header",
+          "NAME",
+          "On a Unix socket: who is named in this header, by a proxy that logs staff in, may do as "
+          "an operator."}),
     Option{"--allow-origin",
            "ORIGIN",
            "Let pages of this site, or * for all, read the answers (CORS)."},

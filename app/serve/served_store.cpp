@@ -45,34 +45,36 @@ ServedStore::ServedStore(std::filesystem::path file,
                          Audience audience,
                          std::size_t readers,
                          std::stop_token stop)
-    : file_{std::move(file)}, audience_{audience}, stop_{std::move(stop)}, readers_(readers) {
-    readers_.front().reader = open(); // refuses other files at once
+    : file_{std::move(file)}, audience_{audience}, stop_{std::move(stop)}, readers_(readers),
+      operator_readers_(readers) {
+    readers_.front().reader = open(audience_); // refuses other files at once
     look();
 }
 
 ServedStore::~ServedStore() = default;
 
-StoreReader ServedStore::open() const {
-    return StoreReader::open(file_, {.stop = stop_}, audience_);
+StoreReader ServedStore::open(Audience audience) const {
+    return StoreReader::open(file_, {.stop = stop_}, audience);
 }
 
-StoreReader& ServedStore::reader(std::size_t worker) {
-    auto& [reader, epoch] = readers_.at(worker);
+StoreReader& ServedStore::reader(std::size_t worker, Audience audience) {
+    const bool is_of_operator = audience == Audience::operator_;
+    auto& [reader, epoch] = (is_of_operator ? operator_readers_ : readers_).at(worker);
     if (const auto now = epoch_.load(); !reader || epoch != now) {
-        reader = open();
+        reader = open(is_of_operator ? audience : audience_);
         epoch = now;
     }
     return *reader;
 }
 
-std::string ServedStore::version() const {
+std::string ServedStore::version(Audience audience) const {
     const std::lock_guard lock{mutex_};
-    return version_;
+    return audience == Audience::operator_ ? versions_.all : versions_.content;
 }
 
 std::string ServedStore::trips_version() const {
     const std::lock_guard lock{mutex_};
-    return trips_version_;
+    return versions_.trips;
 }
 
 bool ServedStore::look() {
@@ -90,30 +92,34 @@ bool ServedStore::look() {
     if (watch_->data_version == data_version) {
         return false;
     }
-    shows_published_alone_ = open().shows_published_alone(); // it may have become a crowd's
-    auto [content, trips] = versions_now();
+    shows_published_alone_ =
+        open(audience_).shows_published_alone(); // it may have become a crowd's
+    auto versions = versions_now();
     watch_->data_version = data_version; // not before, as the above may throw
     const std::lock_guard lock{mutex_};
-    trips_version_ = std::move(trips);
-    return std::exchange(version_, std::move(content)) != version_;
+    std::swap(versions_, versions);
+    return versions_.content != versions.content;
 }
 
 ServedStore::Versions ServedStore::versions_now() {
     auto& database = watch_->database;
     const Transaction one_moment{database, Transaction::Kind::read};
-    auto text = fmt::format("{}\n{}",
-                            watch_->inode,
-                            database.number("SELECT coalesce(max(number), 0) FROM publication"));
+    const auto published =
+        fmt::format("{}\n{}",
+                    watch_->inode,
+                    database.number("SELECT coalesce(max(number), 0) FROM publication"));
     const auto [maintenance, last_trip] = moment_of(database);
     const auto trips = fmt::format("{}\n{}\n{}", watch_->inode, maintenance, last_trip);
-    if (!shows_published_alone_) { // trips that are not published must not show here, either
-        text += "\n" + trips;
-        if (!dirty_chunks(database).empty()) { // values change without another trip
-            text +=
-                fmt::format("\n{}", std::chrono::system_clock::now().time_since_epoch().count());
-        }
+    auto all = published + "\n" + trips;
+    if (!dirty_chunks(database).empty()) { // values change without another trip
+        all += fmt::format("\n{}", std::chrono::system_clock::now().time_since_epoch().count());
     }
-    return {hashed(text), hashed("trips\n" + trips)};
+    Versions versions;
+    versions.all = hashed(all);
+    versions.trips = hashed("trips\n" + trips);
+    // Trips that are not published must not show, either.
+    versions.content = shows_published_alone_ ? hashed(published) : versions.all;
+    return versions;
 }
 
 } // namespace macadam

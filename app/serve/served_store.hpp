@@ -26,11 +26,12 @@ public:
     ~ServedStore();
 
     /// Reader of a worker; opened when it is first needed, and again after the file was replaced.
-    StoreReader& reader(std::size_t worker);
+    /// \param audience  operator_: also what a crowd has not published, if the key is there
+    StoreReader& reader(std::size_t worker, Audience audience = Audience::anyone);
 
     /// Text that changes with the content: of letters and digits, for ETag and URLs. Equal over
     /// restarts once all passes are fused.
-    std::string version() const;
+    std::string version(Audience audience = Audience::anyone) const;
 
     /// Text that changes with the trips, published or not.
     std::string trips_version() const;
@@ -48,9 +49,9 @@ public:
 private:
     struct Watch;
 
-    StoreReader open() const;
+    StoreReader open(Audience audience) const;
     struct Versions {
-        std::string content, trips;
+        std::string content, all, trips;
     };
     Versions versions_now();
 
@@ -62,12 +63,12 @@ private:
         std::optional<StoreReader> reader;
         std::size_t epoch = 0;
     };
-    std::vector<Opened> readers_;        ///< one for each worker, touched by it alone
+    std::vector<Opened> readers_; ///< one for each worker, touched by it alone
+    std::vector<Opened> operator_readers_;
     std::atomic<std::size_t> epoch_ = 0; ///< of the file, grows as it is replaced
     std::unique_ptr<Watch> watch_;
     mutable std::mutex mutex_; ///< guards those below
-    std::string version_;
-    std::string trips_version_;
+    Versions versions_;
 };
 
 } // namespace macadam

@@ -4,12 +4,15 @@
 #include "app/serve/trips/incoming_log.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/text/json.hpp"
+#include "storage/text/text.hpp"
 #include "storage/uploads/upload_database.hpp"
 #include "storage/uploads/upload_queue.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -83,6 +86,17 @@ bool is_among(std::string_view method, std::string_view methods) {
            (at == 0 || methods[at - 1] == ' ');
 }
 
+constexpr std::string_view staff_id = "staff"; // of no token, which has hex digits
+
+/// Name of a member of the staff as the proxy states it; "" if it states none, or more than one,
+/// of which the client may have sent one.
+std::string staff_named(const HttpRequest& request, const std::string& header) {
+    constexpr std::size_t longest = 200;
+    const auto name = header.empty() ? std::string_view{} : trimmed(request.header(header));
+    return name.size() <= longest && name.find(',') == std::string_view::npos ? std::string{name}
+                                                                              : std::string{};
+}
+
 HttpResponse json_response(int status, const std::string& text) {
     return {.status = status, .body = text + "\n", .cache_control = "no-store"};
 }
@@ -100,6 +114,15 @@ Database* TripsApi::opened(std::optional<Database>& uploads) const {
         uploads = open_uploads(store_);
     }
     return uploads ? &*uploads : nullptr;
+}
+
+std::optional<AccessToken> TripsApi::access_of(Database& uploads,
+                                               const HttpRequest& request) const {
+    const auto name = staff_named(request, config_.staff_header);
+    return name.empty()
+               ? find_token(uploads, token_in(request.header("authorization")), now_ms())
+               : std::optional{AccessToken{
+                     .id = std::string{staff_id}, .owner = name, .scope = TokenScope::operator_}};
 }
 
 // ---------------------------------------------------------------------- thread of the network
@@ -120,7 +143,7 @@ std::optional<HttpResponse> TripsApi::refused_reading(const HttpRequest& request
             return http_problem(404, "there is no such page");
         }
         const auto text = token_in(request.header("authorization"));
-        const auto token = uploads == nullptr ? std::nullopt : find_token(*uploads, text, now_ms());
+        const auto token = uploads == nullptr ? std::nullopt : access_of(*uploads, request);
         if (token && readers == Readers::operator_ && token->scope != TokenScope::operator_) {
             return http_problem(403, "this is for tokens of scope operator");
         }
@@ -155,8 +178,7 @@ HttpAdmission TripsApi::admit(const HttpRequest& request) {
         if (!is_among(request.method, methods)) {
             return {.refusal = routed(not_allowed(methods), route)};
         }
-        const auto token =
-            find_token(*uploads, token_in(request.header("authorization")), now_ms());
+        const auto token = access_of(*uploads, request);
         if (auto refusal = refused_rate(request, token)) {
             return {.refusal = routed(*std::move(refusal), route)};
         }
@@ -213,15 +235,14 @@ HttpAdmission TripsApi::admit_upload(const HttpRequest& request,
 // ------------------------------------------------------------------------------------ workers
 
 bool TripsApi::is_of_operator(const HttpRequest& request) {
-    const auto text = token_in(request.header("authorization"));
-    if (text.empty()) {
+    if (token_in(request.header("authorization")).empty() && config_.staff_header.empty()) {
         return false;
     }
     auto& [mutex, connection] = of_readers_;
     const std::scoped_lock lock{mutex};
     try {
         auto* const uploads = opened(connection);
-        const auto token = uploads == nullptr ? std::nullopt : find_token(*uploads, text, now_ms());
+        const auto token = uploads == nullptr ? std::nullopt : access_of(*uploads, request);
         return token && token->scope == TokenScope::operator_;
     } catch (const InputError&) {
         connection.reset();
@@ -240,10 +261,7 @@ HttpResponse TripsApi::answer(const HttpRequest& request) {
         if (uploads != nullptr && request.path == tokens_path) {
             return routed(accept_invitation(*uploads, request), route);
         }
-        const auto token =
-            uploads == nullptr
-                ? std::nullopt
-                : find_token(*uploads, token_in(request.header("authorization")), now_ms());
+        const auto token = uploads == nullptr ? std::nullopt : access_of(*uploads, request);
         if (!token) { // revoked meanwhile
             return routed(no_token(), route);
         }
@@ -296,13 +314,16 @@ HttpResponse TripsApi::accept_invitation(Database& uploads, const HttpRequest& r
 }
 
 /// Returns the events of an upload; 204, which ends a client's visits, once it has the last one.
-HttpResponse TripsApi::follow(const HttpRequest& request, const Upload& upload) {
+HttpResponse
+TripsApi::follow(const HttpRequest& request, const Upload& upload, const AccessToken& token) {
     if (is_final(upload) && request.header("last-event-id") == shown_state(upload)) {
         return {.status = 204, .cache_control = "no-store"};
     }
     HttpResponse response{.type = "text/event-stream", .cache_control = "no-store"};
     response.headers.emplace_back("X-Accel-Buffering", "no"); // nginx hands each on at once
-    response.stream = events_.follow(upload.sha256, token_in(request.header("authorization")));
+    response.stream = events_.follow(upload.sha256,
+                                     token_in(request.header("authorization")),
+                                     token.id == staff_id ? std::optional{token} : std::nullopt);
     if (!response.stream) { // too many: one event, and the client comes again
         response.body = state_event(upload);
     }
@@ -329,7 +350,7 @@ HttpResponse TripsApi::one(Database& uploads,
     if (request.method != "DELETE") {
         return request.header("accept").find("text/event-stream") == std::string_view::npos
                    ? json_response(200, upload_json(*upload))
-                   : follow(request, *upload);
+                   : follow(request, *upload, token);
     }
     if (delete_upload(uploads, spool_of(store_), sha256)) {
         return {.status = 204, .cache_control = "no-store"};

@@ -21,6 +21,9 @@ namespace macadam {
 /// Limits of uploads (docs/reference/serve.md).
 struct TripsApiConfig {
     std::string base{}; ///< public address, without a slash at its end; "" = none is known
+    /// Header, in lower case, by which a proxy names members of the staff, who may do all; "": none
+    /// is believed. Only for a server that nobody but the proxy can reach, on a Unix socket.
+    std::string staff_header{};
     std::size_t max_waiting = 10'000;                         ///< uploads in the queue
     std::uint64_t min_free_bytes = std::uint64_t{512} << 20U; ///< on the disk of the spool
     double per_s = 2;                                         ///< requests of a token
@@ -65,13 +68,16 @@ private:
     /// Connection that is opened when it is first needed, as tokens may be made later.
     Database* opened(std::optional<Database>& uploads) const;
 
+    /// Finds what a request may do: by its token, or as its proxy says of a member of the staff.
+    std::optional<AccessToken> access_of(Database& uploads, const HttpRequest& request) const;
+
     std::optional<HttpResponse> refused_rate(const HttpRequest& request,
                                              const std::optional<AccessToken>& token);
     HttpAdmission
     admit_upload(const HttpRequest& request, const std::string& sha256, const AccessToken& token);
     HttpResponse take_upload(Database& uploads, const HttpRequest& request);
     static HttpResponse accept_invitation(Database& uploads, const HttpRequest& request);
-    HttpResponse follow(const HttpRequest& request, const Upload& upload);
+    HttpResponse follow(const HttpRequest& request, const Upload& upload, const AccessToken& token);
     HttpResponse list(Database& uploads, const AccessToken& token) const;
     HttpResponse one(Database& uploads,
                      const HttpRequest& request,

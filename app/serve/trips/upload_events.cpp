@@ -61,21 +61,23 @@ UploadEvents::UploadEvents(std::filesystem::path store)
     : store_{std::move(store)}, thread_{[this](const std::stop_token& stop) { work(stop); }} {}
 
 std::shared_ptr<HttpStream> UploadEvents::follow(const std::string& sha256,
-                                                 const std::string& token) {
+                                                 const std::string& token,
+                                                 const std::optional<AccessToken>& staff) {
     auto stream = std::make_shared<HttpStream>();
     {
         const std::lock_guard lock{mutex_};
         if (followed_.size() >= max_streams) {
             return nullptr;
         }
-        followed_.push_back({.sha256 = sha256, .token = token, .stream = stream});
+        followed_.push_back({.sha256 = sha256, .token = token, .staff = staff, .stream = stream});
     }
     changed_.notify_all();
     return stream;
 }
 
 bool UploadEvents::tell(Database& uploads, Followed& followed) {
-    const auto token = find_token(uploads, followed.token, now_ms());
+    const auto token =
+        followed.staff ? followed.staff : find_token(uploads, followed.token, now_ms());
     const auto upload = token ? find_upload(uploads, followed.sha256) : std::nullopt;
     if (!upload || !is_visible(*upload, *token)) {
         return false;

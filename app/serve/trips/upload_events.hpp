@@ -12,6 +12,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -47,8 +48,11 @@ public:
     /// Returns a stream of the events of an upload: its state now, and each one that follows. It
     /// ends with the last one, once the token does not suffice any longer, and after max_time.
     /// \param token  text of a token
+    /// \param staff  access of who has none, for the time of the stream
     /// \returns null if there are max_streams already
-    std::shared_ptr<HttpStream> follow(const std::string& sha256, const std::string& token);
+    std::shared_ptr<HttpStream> follow(const std::string& sha256,
+                                       const std::string& token,
+                                       const std::optional<AccessToken>& staff = {});
 
     static constexpr std::size_t max_streams = 256;
     static constexpr std::chrono::seconds max_time{50}; ///< within that of any response
@@ -57,6 +61,7 @@ private:
     using Clock = std::chrono::steady_clock;
     struct Followed {
         std::string sha256, token;
+        std::optional<AccessToken> staff;
         std::shared_ptr<HttpStream> stream;
         Clock::time_point begin = Clock::now();
         Clock::time_point sent = begin;

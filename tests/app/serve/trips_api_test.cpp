@@ -242,6 +242,26 @@ TEST(TripsApi, TakesTripsOfItsOperatorAloneUnlessItIsACrowds) {
     EXPECT_EQ(world.put("a log", world.operator_).status, 202);
 }
 
+TEST(TripsApi, ShowsWhatACrowdHasNotPublishedToItsOperatorAlone) {
+    const TakingWorld world;
+    auto store = RoadStore::open(world.file);
+    import_trips(store, 2);
+    const auto count = [&](const std::string& token) {
+        const auto answer = world.ask("GET", "/collections/segments/items?limit=1", token);
+        EXPECT_EQ(answer.status, 200);
+        return nlohmann::json::parse(answer.body).at("numberMatched").get<int>();
+    };
+    for (int i = 0; i < 300 && count(world.operator_) == 0; ++i) { // the server looks every second
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
+    EXPECT_GT(count(world.operator_), 0);
+    for (const auto& token : {world.anna, world.reader, std::string{}}) {
+        EXPECT_EQ(count(token), 0);
+    }
+    const auto answer = world.ask("GET", "/collections/segments/items?limit=1", world.operator_);
+    EXPECT_EQ(answer.headers.at("cache-control"), "no-store");
+}
+
 TEST(TripsApi, FollowsARevokedTokenAtOnce) {
     TakingWorld world;
     EXPECT_EQ(world.ask("GET", "/v1/trips", world.anna).status, 200);

@@ -10,6 +10,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 namespace macadam::testing {
@@ -21,6 +22,16 @@ HttpClient::HttpClient(std::uint16_t port) : socket_{socket(AF_INET, SOCK_STREAM
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    static_cast<void>(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address));
+}
+
+HttpClient::HttpClient(const std::filesystem::path& unix_socket)
+    : socket_{socket(AF_UNIX, SOCK_STREAM, 0)} {
+    const timeval wait{.tv_sec = 30, .tv_usec = 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    unix_socket.native().copy(address.sun_path, sizeof address.sun_path - 1);
     static_cast<void>(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address));
 }
 

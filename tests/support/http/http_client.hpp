@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -20,6 +21,7 @@ struct Answer {
 class HttpClient {
 public:
     explicit HttpClient(std::uint16_t port);
+    explicit HttpClient(const std::filesystem::path& unix_socket);
     HttpClient(const HttpClient&) = delete;
     HttpClient& operator=(const HttpClient&) = delete;
     ~HttpClient();
