@@ -69,7 +69,7 @@ extern const Command inspect_command;    // app/inspect/command_inspect.cpp
 extern const Command import_command;     // app/import/command_import.cpp
 extern const Command watch_command;      // app/watch/command_watch.cpp
 extern const Command calibrate_command;  // app/store/command_calibrate.cpp
-extern const Command reprocess_command;  // app/import/command_reprocess.cpp
+extern const Command reprocess_command;  // app/reprocess/command_reprocess.cpp
 extern const Command valid_from_command; // app/store/command_valid_from.cpp
 extern const Command forget_command;     // app/store/command_forget.cpp
 extern const Command privacy_command;    // app/store/command_privacy.cpp

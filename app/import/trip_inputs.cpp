@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/trips/source/trip_contents.hpp"
+#include "storage/trips/trip_file_names.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,8 @@ std::size_t max_members_of(const Arguments& arguments) {
 
 AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
                        const TripWalkConfig& config,
-                       const Console& console) {
+                       const Console& console)
+    : config_{config} {
     auto walking = config;
     walking.search = console.progress("looking for logs", {.name = "file"});
     for (const auto& path : paths) {
@@ -35,43 +37,64 @@ AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
         } catch (const InputError& error) {
             asked.refusal = error.what();
         }
-        const auto [at_least, unknown] = count_of(asked);
-        count_.at_least += at_least;
-        count_.unknown += unknown;
+        recount({.at_least = 0}, count_of(asked));
         paths_.push_back(std::move(asked));
     }
 }
 
+void AskedTrips::add(std::filesystem::path name, FileMaker make) {
+    Path asked{.path = std::move(name), .walk = {}, .refusal = {}, .make = std::move(make)};
+    recount({.at_least = 0}, count_of(asked));
+    paths_.push_back(std::move(asked));
+}
+
+void AskedTrips::make_file(Path& path) const {
+    try {
+        path.held = path.make();
+        path.walk.emplace(*path.held, config_);
+    } catch (const InputError& error) {
+        path.refusal = error.what();
+    }
+    path.make = {};
+}
+
 AskedTrips::Count AskedTrips::count_of(const Path& path) {
     if (!path.walk) {
-        return {.at_least = 1};
+        return {.at_least = 1,
+                .unknown = path.make && is_archive_name(path.path.string()) ? 1U : 0};
     }
     const auto count = path.walk->count();
     return {.at_least = count.value_or(path.walk->given() + 1), .unknown = count ? 0U : 1U};
 }
 
+void AskedTrips::recount(const Count& before, const Count& after) {
+    const std::scoped_lock counting{counting_};
+    count_.at_least += after.at_least - before.at_least;
+    count_.unknown += after.unknown - before.unknown;
+}
+
 std::optional<TripSource> AskedTrips::next() {
     const std::scoped_lock lock{asking_};
     for (; at_ < paths_.size(); ++at_) {
-        auto& [path, walk, refusal, is_reported] = paths_[at_];
-        if (!walk) {
+        auto& asked = paths_[at_];
+        const auto before = count_of(asked);
+        if (asked.make) {
+            make_file(asked);
+        }
+        auto trip = asked.walk ? asked.walk->next() : std::nullopt;
+        recount(before, count_of(asked));
+        if (!asked.walk) {
             ++at_;
-            return TripSource{.file = path,
+            return TripSource{.file = asked.path,
                               .member = {},
                               .contents = std::make_shared<const TripContents>(
-                                  TripContents{{{"", "", refusal}}})};
-        }
-        const auto before = count_of(paths_[at_]);
-        auto trip = walk->next();
-        const auto after = count_of(paths_[at_]);
-        {
-            const std::scoped_lock counting{counting_};
-            count_.at_least += after.at_least - before.at_least;
-            count_.unknown += after.unknown - before.unknown;
+                                  TripContents{{{"", "", asked.refusal}}})};
         }
         if (trip) {
+            trip->held = asked.held;
             return trip;
         }
+        asked.held.reset();
     }
     return std::nullopt;
 }

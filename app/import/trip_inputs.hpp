@@ -6,6 +6,8 @@
 #include "storage/trips/trip_search.hpp"
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -33,6 +35,13 @@ public:
                const TripWalkConfig& config,
                const Console& console);
 
+    /// Makes a file when its turn comes; it lasts as long as the pointer, which its trips keep.
+    using FileMaker = std::function<std::shared_ptr<const std::filesystem::path>()>;
+
+    /// Adds a file that is not there yet, behind all paths.
+    /// \param name  for messages, if it cannot be made
+    void add(std::filesystem::path name, FileMaker make);
+
     /// Takes the next trip; `std::nullopt` at the end. A path that does not exist counts as a trip,
     /// and reading it throws.
     std::optional<TripSource> next();
@@ -51,6 +60,8 @@ private:
         std::optional<TripWalk> walk; ///< `std::nullopt`: `refusal` has the reason
         std::string refusal;
         bool is_reported = false;
+        FileMaker make{}; ///< of a file that is not there yet
+        std::shared_ptr<const std::filesystem::path> held{};
     };
 
     /// Trips of paths, as far as they are known.
@@ -60,8 +71,12 @@ private:
     };
 
     static Count count_of(const Path& path);
+    void recount(const Count& before, const Count& after);
     static void tell(const Path& path, const Console& console);
 
+    void make_file(Path& path) const;
+
+    TripWalkConfig config_;
     std::mutex asking_; ///< also while a trip is extracted from an archive
     std::vector<Path> paths_;
     std::size_t at_ = 0;

@@ -35,7 +35,7 @@ void run_forget(const Arguments& arguments, const Console& console) {
     auto store = opened_store(file, console);
     const auto progress = console.progress("deleting");
     const auto forgotten = store.maintenance.forget(request, progress);
-    drop_forgotten_uploads(store);
+    drop_forgotten_uploads(store, console);
     if (arguments.flag("--json")) {
         print(json_of(forgotten));
     } else {

@@ -95,6 +95,9 @@ std::string json_of(const StoreInfo& info,
     if (info.settings.max_trips_per_car_month > 0) {
         object.add("max_trips_per_car_month", info.settings.max_trips_per_car_month);
     }
+    if (info.settings.kept_logs.days > 0) {
+        object.add("kept_logs_days", info.settings.kept_logs.days);
+    }
     object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
     if (info.settings.privacy == PrivacyProfile::crowd) {
         object.add("publication", JsonRaw{json_of(info.publication)})
@@ -158,6 +161,10 @@ std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
     if (info.settings.privacy == PrivacyProfile::crowd) {
         text += fmt::format("published   {}\n",
                             info.publication ? words_for(*info.publication) : "nothing yet");
+    }
+    if (const auto days = info.settings.kept_logs.days; days > 0) {
+        text += fmt::format("logs        kept encrypted for {}\n",
+                            counted(static_cast<std::size_t>(days), "day"));
     }
     if (const auto limit = info.settings.max_trips_per_car_month; limit > 0) {
         text += fmt::format("fused       at most {} of a car over a segment in a month\n",

@@ -20,6 +20,7 @@
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/trip_reader.hpp"
+#include "storage/uploads/sealed_log.hpp"
 
 #include <fmt/format.h>
 
@@ -48,6 +49,8 @@ struct InitOptions {
     double segment_length_m;
     PrivacyProfile privacy;
     std::int64_t max_trips_per_car_month; ///< 0: all
+    std::int64_t keep_logs_days = 0;      ///< 0: none is kept
+    std::filesystem::path logs_key;       ///< file of their key
     bool json;
 };
 
@@ -70,6 +73,28 @@ std::int64_t trip_limit_in(const Arguments& arguments, const InitOptions& option
             "--max-trips-per-car-month is {}, expected 1 to {}", *limit, max_trip_limit)};
     }
     return limit.value_or(0);
+}
+
+/// Parses --keep-logs and --logs-key.
+void parse_kept_logs(const Arguments& arguments, InitOptions& options) {
+    const auto days = arguments.integer("--keep-logs");
+    const auto key = arguments.value("--logs-key");
+    if (!days && !key) {
+        return;
+    }
+    if (!days || !key) {
+        throw UsageError{"expected --keep-logs DAYS and --logs-key FILE together"};
+    }
+    if (*days < 1 || *days > max_kept_logs_days) {
+        throw UsageError{
+            fmt::format("--keep-logs is {}, expected 1 to {} days", *days, max_kept_logs_days)};
+    }
+    if (options.privacy != PrivacyProfile::crowd || options.update) {
+        throw UsageError{"--keep-logs is for a new database with --privacy crowd: keep the logs of "
+                         "your own cars yourself"};
+    }
+    options.keep_logs_days = *days;
+    options.logs_key = *key;
 }
 
 TripPaths trips_in(const Arguments& arguments, std::string_view option) {
@@ -118,6 +143,7 @@ InitOptions parse_init(const Arguments& arguments) {
         throw UsageError{"--privacy crowd works with a .gpkg file only so far"};
     }
     options.max_trips_per_car_month = trip_limit_in(arguments, options);
+    parse_kept_logs(arguments, options);
     if (options.privacy == PrivacyProfile::crowd && is_traced) {
         throw UsageError{
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "
@@ -260,7 +286,7 @@ void add_background(const std::filesystem::path& store,
     }
 }
 
-/// Removes a new database and a new key unless kept.
+/// Removes a new database and new keys unless kept.
 class NewDatabase {
 public:
     explicit NewDatabase(std::filesystem::path store)
@@ -275,15 +301,35 @@ public:
                 std::filesystem::remove(key_file_of(store_), ignored);
             }
         }
+        if (!is_kept_ && !logs_key_.empty()) {
+            std::error_code ignored;
+            std::filesystem::remove(logs_key_, ignored);
+        }
+    }
+
+    /// Takes the key of logs from its file, or makes both. \returns its public part.
+    std::string public_key_in(const std::filesystem::path& file) {
+        if (std::filesystem::exists(file)) {
+            return read_log_key(file).public_key();
+        }
+        const auto key = LogKey::make();
+        write_log_key(file, key);
+        logs_key_ = file;
+        return key.public_key();
     }
 
     void may_go() { goes_ = true; }
-    void keep() { goes_ = false; }
+    void keep() {
+        goes_ = false;
+        is_kept_ = true;
+    }
 
 private:
     std::filesystem::path store_;
+    std::filesystem::path logs_key_; ///< that was made
     bool had_key_;
     bool goes_ = false;
+    bool is_kept_ = false;
 };
 
 void make_store(const InitOptions& options, const Console& console) {
@@ -302,6 +348,10 @@ void make_store(const InitOptions& options, const Console& console) {
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     tell_of_size(roads, options, console);
     NewDatabase whole{options.store};
+    if (options.keep_logs_days > 0) {
+        settings.kept_logs = {.days = options.keep_logs_days,
+                              .public_key = whole.public_key_in(options.logs_key)};
+    }
     const auto info = create_store(options.store, roads, settings, console);
     whole.may_go();
     if (const auto background = options.network
@@ -389,6 +439,11 @@ constexpr std::array options{
             "PROFILE",
             "own (the operator's cars, nothing is anonymised) or crowd (other people's cars).",
             "own"}),
+    rare({"--keep-logs",
+          "DAYS",
+          "With --privacy crowd: a server keeps received logs encrypted for so long, for "
+          "'macadam reprocess'."}),
+    rare({"--logs-key", "FILE", "Their secret key, which is made; move it away from the server."}),
     max_members_option,
     Option{
         "--segment-length", "METRES", "Approximate length of a segment, the unit of fusion.", "20"},

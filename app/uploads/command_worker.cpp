@@ -5,6 +5,7 @@
 #include "app/import/trip_report_output.hpp"
 #include "app/jobs/job_options.hpp"
 #include "app/jobs/job_worker.hpp"
+#include "app/reprocess/kept_trips.hpp"
 #include "app/uploads/upload_workers.hpp"
 #include "storage/objects/object_store.hpp"
 #include "storage/postgres/server_address.hpp"
@@ -92,6 +93,7 @@ void run_worker(const Arguments& arguments, const Console& console) {
         sweep_spool(uploads, spool_of(file));
         while (work_out_uploads(uploads, work, console)) {
         }
+        erase_old_logs_of(file, uploads, console);
         return;
     }
     const UploadWorkers workers{work, 1, console};

@@ -4,8 +4,10 @@
 #include "app/import/import_run.hpp"
 #include "app/import/trip_options.hpp"
 #include "app/jobs/log_outcome.hpp"
+#include "app/reprocess/kept_trips.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/store/road_store.hpp"
+#include "storage/uploads/kept_logs.hpp"
 #include "storage/uploads/upload_database.hpp"
 #include "storage/uploads/upload_queue.hpp"
 
@@ -54,6 +56,12 @@ void note(Database& uploads,
     }
 }
 
+/// Tests whether all trips of a log were imported from it: then it can be kept, as it goes with any
+/// of them. With others, it would outlast what their owners delete.
+bool are_all_ours(const LogOutcome& outcome) {
+    return outcome.imported > 0 && outcome.imported == outcome.trips();
+}
+
 /// Returns how often a log may have been begun that is tried now.
 int max_begun(const UploadWork& work) {
     constexpr int at_once = 1;
@@ -80,12 +88,14 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
     }
     std::vector<fs::path> files;
     std::vector<LogOutcome> outcomes(taken.size());
+    LogKeeping kept;
     for (const auto& one : taken) {
         files.push_back(one.upload().file_in(spool));
     }
     try {
         VehicleChoice vehicles{work.arguments};
         auto store = opened_store(work.store, console);
+        kept = store.settings().kept_logs;
         auto options = parse_import(work.arguments);
         options.named_after = spool;
         const auto is_stored = [&](const std::string& trip) { // other threads use `store`
@@ -111,6 +121,9 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
     }
     for (std::size_t i = 0; i < taken.size(); ++i) {
         const auto fate = fate_of(outcomes[i]);
+        if (kept.days > 0 && are_all_ours(outcomes[i])) {
+            keep_log(work.store, taken[i].upload(), kept.public_key);
+        }
         finish_upload(uploads, spool, taken[i].upload(), fate.state, fate.reason);
     }
     return true;
@@ -130,6 +143,7 @@ bool forget_one(Database& uploads, const UploadWork& work, const Console& consol
     if (!request.trips.empty()) {
         store.maintenance.forget(request, console.progress("deleting"));
     }
+    erase_kept_log(work.store, deletion->upload);
     finish_deletion(uploads, deletion->upload);
     return true;
 }
@@ -168,9 +182,10 @@ void work_out_all_uploads(const fs::path& store, const Console& console) {
     }
 }
 
-void drop_forgotten_uploads(const StoreReader& store) {
+void drop_forgotten_uploads(const StoreReader& store, const Console& console) {
     if (takes_uploads(store.file())) {
         auto uploads = open_uploads(store.file());
+        erase_old_logs_of(store.file(), uploads, console); // first, as it asks for their trips
         drop_missing_trips(uploads,
                            [&](const std::string& trip) { return store.contains_trip(trip); });
     }

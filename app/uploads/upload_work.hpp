@@ -46,7 +46,8 @@ bool work_out_uploads(Database& uploads, const UploadWork& work, const Console& 
 /// \throws InputError  if a stop is requested.
 void work_out_all_uploads(const std::filesystem::path& store, const Console& console);
 
-/// Forgets who sent trips that the database no longer has.
-void drop_forgotten_uploads(const StoreReader& store);
+/// Erases kept logs of trips that the database no longer has, and forgets who sent trips that the
+/// database no longer has.
+void drop_forgotten_uploads(const StoreReader& store, const Console& console);
 
 } // namespace macadam

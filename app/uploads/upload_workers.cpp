@@ -1,5 +1,6 @@
 #include "app/uploads/upload_workers.hpp"
 
+#include "app/reprocess/kept_trips.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/uploads/upload_database.hpp"
 #include "storage/uploads/upload_queue.hpp"
@@ -16,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr auto look_every = 1s;
 constexpr auto after_trouble = 5s;
+constexpr auto erase_every = 10min;
 
 } // namespace
 
@@ -50,6 +52,7 @@ void UploadWorkers::work(const UploadWork& work,
     std::optional<WorkerMark> mark;
     std::string trouble;
     std::size_t seen = 0;
+    auto erasing = std::chrono::steady_clock::now();
     while (!stop.stop_requested()) {
         std::chrono::milliseconds pause = look_every;
         try {
@@ -60,6 +63,10 @@ void UploadWorkers::work(const UploadWork& work,
             }
             if (uploads && work_out_uploads(*uploads, work, quiet)) {
                 pause = 0s;
+            }
+            if (const auto now = std::chrono::steady_clock::now(); uploads && now >= erasing) {
+                erase_old_logs_of(work.store, *uploads, quiet);
+                erasing = now + erase_every;
             }
             trouble.clear();
         } catch (const std::exception& error) {

@@ -175,6 +175,16 @@ void add_trip_of(Database& uploads,
     uploads.prepare(insert_trip).run(sha256, passes, upload.sha256);
 }
 
+std::vector<std::string> trips_of(Database& uploads, const Upload& upload) {
+    std::vector<std::string> trips;
+    auto trip = uploads.prepare("SELECT upload_trip.sha256 FROM upload_trip"
+                                " JOIN upload ON number = upload WHERE upload.sha256 = ?");
+    for (trip.bind(upload.sha256); trip.step();) {
+        trips.push_back(trip.text(0));
+    }
+    return trips;
+}
+
 bool is_trip_of(Database& uploads, const Upload& upload, const std::string& sha256) {
     auto row = uploads.prepare("SELECT 1 FROM upload_trip JOIN upload ON number = upload"
                                " WHERE upload_trip.sha256 = ? AND upload.sha256 = ?");
@@ -209,11 +219,7 @@ std::optional<Deletion> next_deletion(Database& uploads) {
         return std::nullopt;
     }
     Deletion deletion{.upload = upload_in(row), .trips = {}};
-    auto trip = uploads.prepare("SELECT upload_trip.sha256 FROM upload_trip"
-                                " JOIN upload ON number = upload WHERE upload.sha256 = ?");
-    for (trip.bind(deletion.upload.sha256); trip.step();) {
-        deletion.trips.push_back(trip.text(0));
-    }
+    deletion.trips = trips_of(uploads, deletion.upload);
     return deletion;
 }
 

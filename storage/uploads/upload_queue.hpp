@@ -83,6 +83,9 @@ void add_trip_of(Database& uploads,
                  const std::string& sha256,
                  std::int64_t passes);
 
+/// Hashes of the trips that are noted as those of an upload.
+std::vector<std::string> trips_of(Database& uploads, const Upload& upload);
+
 /// Tests whether a trip is noted as one of an upload.
 bool is_trip_of(Database& uploads, const Upload& upload, const std::string& sha256);
 /// Tests whether a trip is noted as one of any upload.

@@ -68,6 +68,8 @@ struct TripSource {
     /// empty: no such file.
     std::filesystem::path positions{};
 
+    std::shared_ptr<const void> held{}; ///< keeps `file`, if it is there for a while only
+
     std::string name() const; ///< for messages
 };
 

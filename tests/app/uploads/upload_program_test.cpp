@@ -226,6 +226,22 @@ TEST(Server, ShowsNoFolderThatItCannotClose) {
     EXPECT_THAT(run.err, HasSubstr("--only-with-token is for a database"));
 }
 
+TEST(Server, BelievesANameOfStaffOnAUnixSocketAlone) {
+    const World world;
+    const auto refusal = [&](const std::string& listen, const std::string& header) {
+        const auto run =
+            run_macadam({"serve", world.store, "--listen", listen, "--staff-header", header});
+        EXPECT_EQ(run.exit_status, 2);
+        return run.err;
+    };
+    EXPECT_THAT(refusal("127.0.0.1:0", "X-Forwarded-User"),
+                HasSubstr("--staff-header is believed on a Unix socket only, expected --listen "
+                          "unix:FILE"));
+    EXPECT_THAT(refusal("unix:/tmp/macadam", "Authorization"),
+                HasSubstr("expected the name of a header that the proxy sets"));
+    EXPECT_THAT(refusal("unix:", "X-Forwarded-User"), HasSubstr("--listen is 'unix:'"));
+}
+
 TEST(Server, RefusesSectionsThatItCannotCut) {
     const World world;
     const auto refused = [&](const std::string& served, const std::string& table) {

@@ -10,12 +10,15 @@
 #include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
+#include "app/reprocess/kept_trips.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/server_address.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 
 namespace macadam {
 namespace {
@@ -25,8 +28,16 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     auto config = pipeline_config_of(arguments);
     config.estimator.tracks = false; // as in an import
     const auto& words = arguments.operands("PATH");
+    const auto logs_key = arguments.value("--logs-key");
     VehicleChoice vehicles{arguments};
     const auto file = file_or_server(arguments);
+    if (words.empty() && !logs_key) {
+        throw UsageError{"PATH is missing, expected logs, or --logs-key for those that a server "
+                         "keeps"};
+    }
+    if (logs_key && is_server_address(file.string())) {
+        throw UsageError{"--logs-key is for a crowd database, which is a file"};
+    }
     auto store = opened_store(file, console);
     AskedTrips trips{{words.begin(), words.end()},
                      {.mapping = mapping_of(arguments),
@@ -34,7 +45,13 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                       .max_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
-    const auto tell = [&](const TripReport& trip) { print_report(trip, json, console); };
+    std::optional<KeptTrips> kept;
+    if (logs_key) {
+        kept.emplace(file, *logs_key, trips, console);
+    }
+    const auto tell = [&](const TripReport& trip) {
+        print_report(kept ? kept->named(trip) : trip, json, console);
+    };
 
     const auto working =
         console.progress("reprocessing", {.name = "trip", .parts = TripProgress::whole_trip});
@@ -67,7 +84,15 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
 
 constexpr std::array operands{
     import_operand,
-    Operand{"PATH", "Logs of trips that are already in the database, in any folders.", true}};
+    Operand{.name = "PATH",
+            .help = "Logs of trips that are already in the database, in any folders.",
+            .many = true,
+            .optional = true}};
+
+constexpr auto options = trip_options_and(std::array{
+    Option{"--logs-key",
+           "FILE",
+           "Also the logs that the server keeps ('init --keep-logs'), opened by this key."}});
 
 } // namespace
 
@@ -82,9 +107,10 @@ const Command reprocess_command{
              "are; logs of trips that\n"
              "are not in the database are skipped ('unknown').",
     .example = "  macadam reprocess roads.gpkg trips/ --vehicles better-cars/\n"
-               "  macadam reprocess roads.gpkg trips/ --method kf --jobs 2",
+               "  macadam reprocess roads.gpkg trips/ --method kf --jobs 2\n"
+               "  macadam reprocess crowd.gpkg --logs-key logs.key",
     .operands = operands,
-    .options = trip_options,
+    .options = options,
     .run = run_reprocess};
 
 } // namespace macadam
