@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/export/tile_pyramid.hpp"
+#include "app/tiles/tile_pyramid.hpp"
 #include "estimator/common/progress.hpp"
 #include "render/scene/scene.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"

@@ -2,7 +2,7 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
-#include "app/export/tile_pyramid.hpp"
+#include "app/tiles/tile_pyramid.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <filesystem>

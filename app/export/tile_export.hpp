@@ -2,8 +2,8 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
-#include "app/export/tile_pyramid.hpp"
 #include "app/parallel/jobs_option.hpp"
+#include "app/tiles/tile_pyramid.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <cstddef>

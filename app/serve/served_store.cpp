@@ -1,5 +1,6 @@
 #include "app/serve/served_store.hpp"
 
+#include "app/serve/live/file_number.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
 #include "storage/sqlite/sqlite.hpp"
@@ -11,16 +12,8 @@
 #include <chrono>
 #include <utility>
 
-#include <sys/stat.h>
-
 namespace macadam {
 namespace {
-
-/// Number of a file on its file system; it changes as another file takes its name.
-std::uint64_t inode_of(const std::filesystem::path& file) {
-    struct stat status {};
-    return stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
-}
 
 std::string hashed(const std::string& text) {
     Sha256 hash;
@@ -34,7 +27,7 @@ std::string hashed(const std::string& text) {
 /// Connection that only looks for changes.
 struct ServedStore::Watch {
     explicit Watch(const std::filesystem::path& file)
-        : inode{inode_of(file)}, database{file, Database::Access::read} {}
+        : inode{file_number(file)}, database{file, Database::Access::read} {}
 
     std::uint64_t inode;
     Database database;
@@ -78,7 +71,7 @@ std::string ServedStore::trips_version() const {
 }
 
 bool ServedStore::look() {
-    if (const auto inode = inode_of(file_); inode == 0) {
+    if (const auto inode = file_number(file_); inode == 0) {
         throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
     } else if (!watch_ || watch_->inode != inode) {
         expect_store_file(file_);

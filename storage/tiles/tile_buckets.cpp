@@ -4,6 +4,7 @@
 #include <cassert>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -114,10 +115,37 @@ std::vector<RoadPart> road_parts_in(std::string_view bytes) {
 
 void TileBuckets::settle() {
     for (const auto& [tile, bytes] : open_) {
-        places_[tile].push_back(temp_file_.append(bytes));
+        places_[tile].push_back(temp_file_->append(bytes));
     }
     open_.clear();
     open_bytes_ = 0;
+}
+
+void TileBuckets::put(const TileId& tile, std::string_view bytes) {
+    assert(open_.empty());
+    if (const auto found = places_.find(tile); found != places_.end()) {
+        for (const auto& place : found->second) {
+            replaced_bytes_ += place.size;
+        }
+        places_.erase(found);
+    }
+    if (!bytes.empty()) {
+        places_[tile] = {temp_file_->append(bytes)};
+    }
+}
+
+void TileBuckets::compact() {
+    if (replaced_bytes_ <= max_open_bytes || 2 * replaced_bytes_ <= temp_file_->size()) {
+        return;
+    }
+    auto file = std::make_unique<TempFile>(temp_file_->beside());
+    std::map<TileId, std::vector<ByteRange>> places;
+    for (const auto& tile : tiles()) {
+        places[tile] = {file->append(read(tile))};
+    }
+    temp_file_ = std::move(file);
+    places_ = std::move(places);
+    replaced_bytes_ = 0;
 }
 
 std::vector<TileId> TileBuckets::tiles() const {
@@ -134,7 +162,7 @@ std::string TileBuckets::read(const TileId& tile) const {
     std::string bytes;
     if (const auto found = places_.find(tile); found != places_.end()) {
         for (const auto& place : found->second) {
-            bytes += temp_file_.read(place);
+            bytes += temp_file_->read(place);
         }
     }
     return bytes;

@@ -4,8 +4,10 @@
 #include "mapping/tiles/tile_grid.hpp"
 #include "storage/atomic/temp_file.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +29,8 @@ std::vector<RoadPart> road_parts_in(std::string_view bytes);
 class TileBuckets {
 public:
     /// \param beside  see TempFile.
-    explicit TileBuckets(const std::filesystem::path& beside) : temp_file_{beside} {}
+    explicit TileBuckets(const std::filesystem::path& beside)
+        : temp_file_{std::make_unique<TempFile>(beside)} {}
 
     /// \param item  appended to the bytes of the tile.
     template <typename Item>
@@ -44,21 +47,30 @@ public:
     /// Flushes everything to disk.
     void settle();
 
+    /// Replaces the bytes of a tile, "" for none. Call settle() before the first one.
+    void put(const TileId& tile, std::string_view bytes);
+
+    /// Gives back the room of replaced bytes once it is more than that of the others.
+    void compact();
+
     /// Tiles that are not empty, in order. Call settle() first.
     std::vector<TileId> tiles() const;
+
+    bool contains(const TileId& tile) const { return places_.contains(tile); }
 
     /// Bytes of a tile; "" if it is empty.
     std::string read(const TileId& tile) const;
 
-    const std::filesystem::path& beside() const { return temp_file_.beside(); }
+    const std::filesystem::path& beside() const { return temp_file_->beside(); }
 
 private:
     static constexpr std::size_t max_open_bytes = std::size_t{16} << 20U;
 
-    TempFile temp_file_;
+    std::unique_ptr<TempFile> temp_file_;
     std::map<TileId, std::string> open_;
     std::size_t open_bytes_ = 0;
     std::map<TileId, std::vector<ByteRange>> places_;
+    std::uint64_t replaced_bytes_ = 0;
 };
 
 } // namespace macadam

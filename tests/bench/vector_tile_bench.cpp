@@ -2,7 +2,7 @@
 // same from memory, and all tiles of zooms 14 and 15 of a town beside GDAL's driver for them, from
 // its export of the same segments.
 
-#include "app/export/tile_pyramid.hpp"
+#include "app/tiles/tile_pyramid.hpp"
 #include "driven_town.hpp"
 #include "render/tiles/mvt_tile.hpp"
 #include "storage/exports/export.hpp"

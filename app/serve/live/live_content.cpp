@@ -1,6 +1,7 @@
 #include "app/serve/live/live_content.hpp"
 
 #include "app/export/site_export.hpp"
+#include "app/serve/live/file_number.hpp"
 #include "app/site/site_page.hpp"
 #include "estimator/common/error.hpp"
 
@@ -25,7 +26,7 @@ std::filesystem::path beside() {
 
 LiveContent::LiveContent(std::filesystem::path file, Audience audience, const Console& console)
     : file_{std::move(file)}, audience_{audience}, console_{console},
-      thread_{[this](const std::stop_token& stop) { work(stop); }} {}
+      tile_maker_{beside()}, thread_{[this](const std::stop_token& stop) { work(stop); }} {}
 
 void LiveContent::refresh(const std::string& version, bool published_alone) {
     {
@@ -82,7 +83,17 @@ void LiveContent::work(const std::stop_token& stop) {
 void LiveContent::make(const std::string& version, const std::stop_token& stop) {
     const auto store = StoreReader::open(file_, {.stop = stop}, audience_);
     const Progress progress{{}, stop};
-    auto tiles = std::make_shared<const TileSet>(store, version, beside(), progress);
+    if (const auto number = file_number(file_); file_number_ != number) {
+        store.expect_in_place();
+        tile_maker_.forget();
+        file_number_ = number;
+    }
+    const auto begin = Clock::now();
+    auto tiles = tile_maker_.make(store, version, progress);
+    console_.detail(fmt::format("{} of {} tiles made in {:.1f} s",
+                                tile_maker_.made(),
+                                tiles->count(),
+                                std::chrono::duration<double>{Clock::now() - begin}.count()));
     {
         const std::lock_guard lock{mutex_};
         if (was_dropped_) { // the store that was read may not be shown any longer

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "app/cli/console.hpp"
+#include "app/serve/live/tile_maker.hpp"
 #include "app/serve/live/tile_set.hpp"
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/store/records/publication.hpp"
 
 #include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -16,7 +18,8 @@
 namespace macadam {
 
 /// Content made in the background from a whole version of the database: its tiles, and the web
-/// page with its data. Until a newer version is made, the one before is shown.
+/// page with its data. Until a newer version is made, the one before is shown. After imports, what
+/// did not change is taken from the version before.
 class LiveContent {
 public:
     /// \param file  the database
@@ -43,7 +46,9 @@ private:
     std::filesystem::path file_;
     Audience audience_;
     const Console& console_;
-    bool has_page_ = true;     ///< false once it was refused
+    bool has_page_ = true; ///< false once it was refused
+    TileMaker tile_maker_; ///< of the thread, as is the one below
+    std::uint64_t file_number_ = 0;
     mutable std::mutex mutex_; ///< guards the members below
     std::string wanted_;
     bool published_alone_ = false; ///< of the wanted version

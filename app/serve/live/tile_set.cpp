@@ -1,30 +1,15 @@
 #include "app/serve/live/tile_set.hpp"
 
-#include "mapping/style/iri_class.hpp"
-
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 namespace macadam {
 
-TileSet::TileSet(const StoreReader& store,
-                 std::string version,
-                 const std::filesystem::path& beside,
-                 const Progress& progress)
-    : version_{std::move(version)}, file_{beside} {
-    TileSource source{beside};
-    read_tile_source(store, {}, source, progress);
-    box_ = source.box;
-    const TilePlan plan{.min_zoom = min_zoom, .max_zoom = max_zoom};
-    make_vector_tiles(
-        source,
-        *class_table(store.settings().class_table),
-        plan,
-        [&](const TileId& tile, std::string_view bytes) {
-            places_.emplace(tile, file_.append(bytes));
-        },
-        progress);
+TileSet::TileSet(std::string version,
+                 const GeoBox& box,
+                 std::shared_ptr<const TempFile> file,
+                 Places places)
+    : version_{std::move(version)}, box_{box}, file_{std::move(file)}, places_{std::move(places)} {
     if (places_.empty()) {                     // no box is around nothing
         constexpr double lat_deg = 85.0511288; // of Web Mercator
         box_ = {-180, -lat_deg, 180, lat_deg};
@@ -36,7 +21,7 @@ TileSet::TileSet(const StoreReader& store,
 
 std::optional<std::string> TileSet::tile(const TileId& id) const {
     const auto place = places_.find(id);
-    return place == places_.end() ? std::nullopt : std::optional{file_.read(place->second)};
+    return place == places_.end() ? std::nullopt : std::optional{file_->read(place->second)};
 }
 
 } // namespace macadam

@@ -1,14 +1,12 @@
 #pragma once
 
-#include "app/export/tile_pyramid.hpp"
 #include "estimator/common/geo.hpp"
-#include "estimator/common/progress.hpp"
+#include "mapping/tiles/tile_grid.hpp"
 #include "storage/atomic/temp_file.hpp"
-#include "storage/store/reader/store_reader.hpp"
 
 #include <cstddef>
-#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,19 +16,22 @@ namespace macadam {
 /// writes. Reading takes a lookup and a read, whatever a tile shows.
 class TileSet {
 public:
-    /// Makes the tiles.
-    /// \param beside  in the folder that has room
-    /// \throws InputError  on a stop request.
-    TileSet(const StoreReader& store,
-            std::string version,
-            const std::filesystem::path& beside,
-            const Progress& progress);
+    using Places = std::map<TileId, ByteRange>;
+
+    /// \param box     around all segments with a value
+    /// \param file    may hold tiles of other versions, too
+    TileSet(std::string version,
+            const GeoBox& box,
+            std::shared_ptr<const TempFile> file,
+            Places places);
 
     /// Returns a tile, gzipped; `std::nullopt` if it shows nothing.
     std::optional<std::string> tile(const TileId& id) const;
 
     const std::string& version() const { return version_; }
-    const GeoBox& box() const { return box_; } ///< around all segments with a value
+
+    /// Box around all segments with a value, of the world if there are none.
+    const GeoBox& box() const { return box_; }
     std::size_t count() const { return places_.size(); }
 
     static constexpr int min_zoom = 0, max_zoom = 16;
@@ -38,8 +39,8 @@ public:
 private:
     std::string version_;
     GeoBox box_;
-    TempFile file_;
-    std::map<TileId, ByteRange> places_;
+    std::shared_ptr<const TempFile> file_;
+    Places places_;
 };
 
 } // namespace macadam

@@ -9,6 +9,7 @@
 #include "storage/store/records/maintenance_records.hpp"
 #include "storage/store/records/publication.hpp"
 #include "storage/store/records/segment_filter.hpp"
+#include "storage/store/records/store_moment.hpp"
 #include "storage/store/records/store_records.hpp"
 #include "storage/store/records/usage_records.hpp"
 
@@ -66,6 +67,19 @@ public:
     ///
     /// \throws InputError  if the file was removed or replaced since it was opened.
     void expect_in_place() const;
+
+    /// Has all calls, also of copies of this reader, see one commit for as long as the result
+    /// lives.
+    std::shared_ptr<const void> hold() const;
+
+    /// Mark of what is seen now.
+    StoreMoment moment() const;
+
+    /// Finds segments with new values since a moment of the same file, and others near them; the
+    /// roads are then the same. Ranges do not overlap.
+    ///
+    /// \returns `std::nullopt` if anything may have changed, as by maintenance or a publication.
+    std::optional<std::vector<SegmentRange>> changed_since(const StoreMoment& before) const;
 
     /// Network of this database, from which its segments are cut, built from the stored ways.
     /// load_or_build_network (storage/networks/network_file.hpp) is faster.
