@@ -1,6 +1,8 @@
 #include "app/export/site_export.hpp"
 
+#include "app/export/site_folder.hpp"
 #include "app/export/site_overview.hpp"
+#include "app/export/site_segments.hpp"
 #include "app/export/tile_export.hpp"
 #include "app/site/site_json.hpp"
 #include "app/site/site_manifest.hpp"
@@ -10,49 +12,22 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/analysis/worst_sections.hpp"
-#include "mapping/tiles/tile_grid.hpp"
 #include "storage/atomic/atomic_folder.hpp"
 #include "storage/networks/network_file.hpp"
-#include "storage/store/rows/segment_row.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <map>
 #include <optional>
-#include <set>
-#include <span>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace macadam {
 namespace {
 
-constexpr std::size_t segments_of_shard = 256; // some 200 kB
 constexpr std::size_t names_of_shard = 1000;
 constexpr std::size_t worst_count = 200;
-constexpr int compare_zoom = 14;
-
-/// Files of a folder that is not yet in place.
-struct SiteFolder {
-    std::filesystem::path shown; ///< its name in messages
-    std::filesystem::path place;
-
-    void write(const std::filesystem::path& name,
-               std::string_view text,
-               std::ios::openmode mode = std::ios::trunc) const {
-        const auto file = place / name;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream out{file, std::ios::binary | mode};
-        out << text << std::flush;
-        if (!out) {
-            throw InputError{fmt::format("{}: cannot be written", (shown / name).string())};
-        }
-    }
-};
 
 void copy_page(const std::filesystem::path& page, const SiteFolder& folder) {
     std::error_code failed;
@@ -79,134 +54,6 @@ measured_segments(const StoreReader& store, SegmentFilter filter, const Progress
                                      store.file().string())};
     }
     return records;
-}
-
-/// Returns runs of neighbouring keys.
-std::vector<SegmentRange> ranges_of(std::span<const SegmentRecord> records) {
-    std::vector<SegmentRange> ranges;
-    for (const auto& record : records) {
-        const auto& key = record.segment.key;
-        if (!ranges.empty() && ranges.back().way_id == key.way_id &&
-            ranges.back().forward == key.forward && ranges.back().past == key.index) {
-            ++ranges.back().past;
-        } else {
-            ranges.push_back({key.way_id, key.forward, key.index, key.index + 1});
-        }
-    }
-    return ranges;
-}
-
-using MonthsOfSegments = std::map<SegmentKey, std::vector<SegmentMonth>>;
-
-/// Reads what the passes of each month alone say about some segments.
-MonthsOfSegments months_of(const StoreReader& store,
-                           const SegmentFilter& filter,
-                           std::span<const SegmentRecord> records,
-                           const std::vector<std::string>& months) {
-    MonthsOfSegments found;
-    SegmentFilter selected = filter; // of cars and references, too
-    selected.ranges = ranges_of(records);
-    selected.min_passes = 0;
-    selected.min_vehicles = 0;
-    selected.class_name.clear();
-    for (const auto& month : months) {
-        selected.period = period_of_month(month);
-        store.visit(selected, [&](const SegmentRecord& record) {
-            if (record.state) {
-                found[record.segment.key].push_back({month, *record.state});
-            }
-        });
-    }
-    return found;
-}
-
-/// Files with the months of the segments of each tile, for the comparison of two.
-class CompareFiles {
-public:
-    CompareFiles(const SiteFolder& folder, const std::vector<std::string>& months)
-        : folder_{&folder}, months_{&months} {}
-
-    void add(std::span<const SegmentRecord> records, const MonthsOfSegments& found) {
-        std::map<std::string, std::string> texts;
-        for (const auto& record : records) {
-            const auto months = found.find(record.segment.key);
-            if (months == found.end()) {
-                continue;
-            }
-            auto name = file_of(record.segment.line.front());
-            auto& text = texts[name];
-            text += begun_.insert(std::move(name)).second ? "{" : ",\n";
-            text += fmt::format(
-                "{}:{}", json_text(name_of(record.segment.key)), months_json(months->second));
-        }
-        for (const auto& [name, text] : texts) {
-            folder_->write(name, text, std::ios::app);
-        }
-    }
-
-    void finish() const {
-        for (const auto& name : begun_) {
-            folder_->write(name, "}", std::ios::app);
-        }
-    }
-
-private:
-    static std::string file_of(const GeoPoint& point) {
-        const auto place = tile_position(point, compare_zoom);
-        return fmt::format("months/{}/{}/{}.json",
-                           compare_zoom,
-                           static_cast<int>(place.x),
-                           static_cast<int>(place.y));
-    }
-
-    std::string months_json(std::span<const SegmentMonth> months) const {
-        std::vector<std::string> rows;
-        for (const auto& [month, state] : months) {
-            rows.push_back(fmt::format("[{},{:.3f},{:.3f}]",
-                                       std::ranges::lower_bound(*months_, month) - months_->begin(),
-                                       mm_per_m(state.iri_um),
-                                       mm_per_m(state.sd_um)));
-        }
-        return json_array(rows);
-    }
-
-    const SiteFolder* folder_;
-    const std::vector<std::string>* months_;
-    std::set<std::string> begun_;
-};
-
-void write_segments(const StoreReader& store,
-                    const SegmentFilter& filter,
-                    std::span<const SegmentRecord> records,
-                    const std::vector<std::string>& months,
-                    const SiteFolder& folder,
-                    const Progress& progress) {
-    const auto& classes = *class_table(store.settings().class_table);
-    std::vector<std::string> first_keys;
-    CompareFiles compare{folder, months};
-    for (std::size_t begin = 0; begin < records.size(); begin += segments_of_shard) {
-        progress(begin, records.size());
-        if (progress.stop.stop_requested()) {
-            throw InputError{"stopped"};
-        }
-        const auto shard =
-            records.subspan(begin, std::min(segments_of_shard, records.size() - begin));
-        const auto found = months_of(store, filter, shard, months);
-        JsonObject object;
-        for (const auto& record : shard) {
-            const auto each = found.find(record.segment.key);
-            object.add(name_of(record.segment.key),
-                       JsonRaw{segment_json(record,
-                                            classes,
-                                            each == found.end() ? std::span<const SegmentMonth>{}
-                                                                : each->second)});
-        }
-        folder.write(fmt::format("segments/{}.json", first_keys.size()), object.text());
-        first_keys.push_back(name_of(shard.front().segment.key));
-        compare.add(shard, found);
-    }
-    compare.finish();
-    folder.write("segments/index.json", json_string_array(first_keys));
 }
 
 void write_names(const SiteNames& names, const SiteFolder& folder) {
@@ -281,11 +128,11 @@ std::vector<std::string> months_within(std::vector<std::string> months, const Pe
 
 } // namespace
 
-void export_site(const StoreReader& store,
-                 const SegmentFilter& filter,
-                 const std::filesystem::path& folder,
-                 const SitePlan& plan,
-                 const Console& console) {
+SiteSegments export_site(const StoreReader& store,
+                         const SegmentFilter& filter,
+                         const std::filesystem::path& folder,
+                         const SitePlan& plan,
+                         const Console& console) {
     const auto target = folder.has_filename() ? folder : folder.parent_path();
     const auto page = site_page_folder();
     AtomicFolder output{target};
@@ -300,6 +147,7 @@ void export_site(const StoreReader& store,
         .left_hand = plan.left_hand,
         .bounds = {},
         .segments = records.size(),
+        .digest = plan.served_version,
         .months = months_within(site_months(store), filter.period.value_or(Period{})),
         .overview = {},
         .first_picture = {},
@@ -311,8 +159,13 @@ void export_site(const StoreReader& store,
         add_name(names, record);
         manifest.bounds = joined_box(manifest.bounds, box_around(record.segment.line));
     }
-    write_segments(
-        store, filter, records, manifest.months, files, console.progress("writing months"));
+    auto segments = write_segments(store,
+                                   filter,
+                                   records,
+                                   manifest.months,
+                                   files,
+                                   plan.earlier,
+                                   console.progress("writing months"));
     write_names(names, files);
     write_worst(store, records, files);
     files.write("totals.json", totals.json());
@@ -339,6 +192,7 @@ void export_site(const StoreReader& store,
                             folder.string(),
                             counted(records.size(), "segment"),
                             totals.km()));
+    return segments;
 }
 
 } // namespace macadam

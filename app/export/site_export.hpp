@@ -2,6 +2,7 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
+#include "app/export/site_segments.hpp"
 #include "app/tiles/tile_pyramid.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
@@ -18,18 +19,20 @@ struct SitePlan {
     std::string title;
     bool left_hand = false;
     TilePlan tiles;
-    std::string served_version{}; ///< of the tiles of a server; "": the site has its own
+    std::string served_version{};         ///< of the tiles of a server; "": the site has its own
+    const EarlierSite* earlier = nullptr; ///< must outlive the export; null: none
 };
 
 /// Writes the measured segments as a web page with all its data (docs/reference/site.md) into a
 /// new or empty folder, and reports what it has. Files have a bounded size: lists that grow are
 /// cut into several.
 ///
+/// \returns what an EarlierSite of this one needs
 /// \throws InputError  without a page in this build, and for a selection without measured segments.
-void export_site(const StoreReader& store,
-                 const SegmentFilter& filter,
-                 const std::filesystem::path& folder,
-                 const SitePlan& plan,
-                 const Console& console);
+SiteSegments export_site(const StoreReader& store,
+                         const SegmentFilter& filter,
+                         const std::filesystem::path& folder,
+                         const SitePlan& plan,
+                         const Console& console);
 
 } // namespace macadam

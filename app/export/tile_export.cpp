@@ -1,13 +1,11 @@
 #include "app/export/tile_export.hpp"
 
 #include "app/output/units_option.hpp"
+#include "app/tiles/tile_layers.hpp"
 
 #include "estimator/common/error.hpp"
-#include "render/tiles/mvt_background.hpp"
-#include "render/tiles/mvt_tile.hpp"
 #include "storage/atomic/atomic_folder.hpp"
 #include "storage/exports/export.hpp"
-#include "storage/store/reader/store_background.hpp"
 #include "storage/tiles/tile_archive.hpp"
 
 #include <fmt/format.h>
@@ -45,39 +43,6 @@ bool is_us(const TilePlan& plan) {
     return plan.units == TileUnits::us;
 }
 
-TileLayer layer_of(const TilePlan& plan, const ClassTable& classes) {
-    TileLayer layer{.id = std::string{roughness_layer},
-                    .description = is_us(plan)
-                                       ? "About 66 ft of road in one direction from zoom 14 on, "
-                                         "longer intervals below it; IRI in in/mi"
-                                       : "About 20 m of road in one direction from zoom 14 on, "
-                                         "longer intervals below it; IRI in mm/m",
-                    .min_zoom = plan.min_zoom,
-                    .max_zoom = plan.max_zoom,
-                    .fields = {}};
-    for (const auto& field : vector_fields(classes, plan.units)) {
-        layer.fields.push_back({field.name, field.is_number ? "Number" : "String"});
-    }
-    return layer;
-}
-
-std::vector<TileLayer> layers_of(const StoreReader& store, const TilePlan& plan) {
-    std::vector<TileLayer> layers;
-    if (!StoreBackground{store}.size().is_empty()) {
-        for (const auto& each : background_layers()) {
-            layers.push_back({.id = std::string{each.name},
-                              .description = "Background",
-                              .min_zoom = std::max(plan.min_zoom, each.min_zoom),
-                              .max_zoom = plan.max_zoom,
-                              .fields = {{"kind", "String"}}});
-        }
-        layers.back().fields.insert(layers.back().fields.end(),
-                                    {{"name", "String"}, {"rank", "Number"}});
-    }
-    layers.push_back(layer_of(plan, *class_table(store.settings().class_table)));
-    return layers;
-}
-
 TileSetNote note_of(const StoreReader& store, const GeoBox& box, const TilePlan& plan) {
     return {.name = store.file().stem().string(),
             .description = fmt::format("Roughness of roads (IRI, {}) with its uncertainty",
@@ -87,7 +52,7 @@ TileSetNote note_of(const StoreReader& store, const GeoBox& box, const TilePlan&
             .bounds = box,
             .min_zoom = plan.min_zoom,
             .max_zoom = plan.max_zoom,
-            .layers = layers_of(store, plan)};
+            .layers = tile_layers(store, plan)};
 }
 
 std::string size_text(std::uint64_t bytes) {

@@ -2,8 +2,10 @@
 
 #include "mapping/tiles/tile_grid.hpp"
 #include "render/scene/scene.hpp"
+#include "render/tiles/tile_background.hpp"
 #include "render/tiles/tile_painter.hpp"
 #include "render/tiles/tile_png.hpp"
+#include "storage/store/reader/store_background.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <cstdint>
@@ -18,7 +20,8 @@ struct TileSquare {
     TileRange wanted;
 };
 
-/// Draws squares of tiles from a database as PNG, one after the other, with all roads. Tiles are
+/// Draws squares of tiles from a database as PNG, one after the other, with all roads and, if the
+/// database has one, its background. Tiles are
 /// the same whatever the squares (render/tiles/tile_painter.hpp). For the thread that draws first.
 class TileSquarePainter {
 public:
@@ -32,13 +35,17 @@ public:
     /// \throws InputError  if the database cannot be read, or OpenGL cannot draw.
     void draw(const TileSquare& square, const Put& put);
 
-    /// A tile without roads.
+    /// A tile that shows nothing.
     const std::vector<std::uint8_t>& empty() const { return empty_; }
 
 private:
+    GeoBox box_of(const TileSquare& square) const;
     std::vector<MapLine> lines_of(const TileSquare& square) const;
+    TileBackground background_of(const TileSquare& square) const;
 
     StoreReader store_;
+    StoreBackground background_;
+    bool has_background_;
     MapStyle style_;
     int tile_px_;
     TilePainter painter_;

@@ -90,7 +90,7 @@ manifest_json(const StoreReader& store, const SiteManifest& manifest, const Site
     return JsonObject{}
         .add("format", "macadam-site 1")
         .add("title", manifest.title)
-        .add("digest", digest_of(store, publication))
+        .add("digest", manifest.digest.empty() ? digest_of(store, publication) : manifest.digest)
         .add("published", published_json(publication))
         .add("first_seen", day(seen.first_ms))
         .add("last_seen", day(seen.last_ms))

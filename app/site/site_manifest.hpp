@@ -25,6 +25,7 @@ struct SiteManifest {
     bool left_hand = false;
     GeoBox bounds;
     std::size_t segments = 0;            ///< measured
+    std::string digest{};                ///< changes with what is shown; "": to be computed
     std::vector<std::string> months;     ///< "2026-03", ascending
     std::string overview;                ///< picture of all roads; "" = none
     std::optional<GeoBox> first_picture; ///< bounds of first_light.png and first_dark.png

@@ -25,14 +25,25 @@ PixelPoint rounded(const PixelPoint& at) {
     return {std::round(at.x * per_px) / per_px, std::round(at.y * per_px) / per_px};
 }
 
+std::vector<PointName> places_in(std::span<const PointName> places, const PixelBox& box) {
+    std::vector<PointName> within;
+    std::ranges::copy_if(places, std::back_inserter(within), [&](const PointName& place) {
+        return place.at.x >= box.left && place.at.x < box.right && place.at.y >= box.top &&
+               place.at.y < box.bottom;
+    });
+    return within;
+}
+
 } // namespace
 
 std::vector<Label> tile_labels(std::span<const MapLine> lines,
+                               std::span<const PointName> places,
                                const WorldWindow& window,
                                const LineWidths& widths,
                                TypeSetter& setter) {
     const auto has_name = [&](const MapLine& line) { return is_named(line, window); };
-    if (zoom_of_256_px(window.scale) > max_labelled_zoom || std::ranges::none_of(lines, has_name)) {
+    if (zoom_of_256_px(window.scale) > max_labelled_zoom ||
+        (places.empty() && std::ranges::none_of(lines, has_name))) {
         return {};
     }
     auto roads = road_names(lines, world_frame(window.scale), widths, has_name);
@@ -47,8 +58,9 @@ std::vector<Label> tile_labels(std::span<const MapLine> lines,
         for (auto column = first_of(window.left_px); column <= last_column; ++column) {
             const auto cell =
                 label_cell_at(double(column) * label_cell_px, double(row) * label_cell_px);
-            std::ranges::move(placed_labels(roads, {}, cell, LabelConfig{}, setter),
-                              std::back_inserter(labels));
+            std::ranges::move(
+                placed_labels(roads, places_in(places, cell.box), cell, LabelConfig{}, setter),
+                std::back_inserter(labels));
         }
     }
     return labels;

@@ -10,12 +10,13 @@
 
 namespace macadam {
 
-/// Returns the names of roads in a window of the world, in pixels of the world: motorways and
+/// Returns the names of places and roads in a window of the world, in its pixels: motorways and
 /// primary roads from zoom 11 on, secondary and tertiary ones from 13, the others from 15 to 22 (of
 /// tiles of 256 px).
 ///
-/// \param lines  all lines of every label cell that the window touches
+/// \param lines, places  all of every label cell that the window touches
 std::vector<Label> tile_labels(std::span<const MapLine> lines,
+                               std::span<const PointName> places,
                                const WorldWindow& window,
                                const LineWidths& widths,
                                TypeSetter& setter);

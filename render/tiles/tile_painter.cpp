@@ -10,6 +10,7 @@
 
 #include <cstdlib>
 #include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -91,7 +92,9 @@ TilePainter::~TilePainter() = default;
 TilePainter::TilePainter(TilePainter&&) noexcept = default;
 TilePainter& TilePainter::operator=(TilePainter&&) noexcept = default;
 
-Image TilePainter::draw(const TileId& first, std::span<const MapLine> lines) {
+Image TilePainter::draw(const TileId& first,
+                        std::span<const MapLine> lines,
+                        const TileBackground* background) {
     auto& [look, setter, colours, roads] = *impl_;
     check_classes(lines, classes_of(look.style));
     const auto window = window_of(first, look.tile_px, look.across);
@@ -101,13 +104,22 @@ Image TilePainter::draw(const TileId& first, std::span<const MapLine> lines) {
         widths.separate_ways
             ? side_by_side(lines, frame, widths, look.style.left_hand_traffic, separate_polylines)
             : separate_polylines(lines, worse_of_both_ways(lines), frame);
-    roads.begin(sheet_of(window), strands, widths);
+    auto sheet = sheet_of(window);
+    std::vector<PointName> places;
+    if (background != nullptr) {
+        sheet.ground = tile_ground(background->tiles, window, look.style.theme, colours.ground);
+        places = tile_places(background->places, window.scale);
+    }
+    roads.begin(std::move(sheet), strands, widths);
     auto image = roads.rows(0, window.side_px);
     if (!look.style.labels) {
         return image;
     }
-    return with_labels(
-        std::move(image), tile_labels(lines, window, widths, setter), window, colours, setter);
+    return with_labels(std::move(image),
+                       tile_labels(lines, places, window, widths, setter),
+                       window,
+                       colours,
+                       setter);
 }
 
 double TilePainter::reach_px(int zoom) const {

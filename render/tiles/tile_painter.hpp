@@ -2,6 +2,7 @@
 
 #include "render/projection/tile_pixel_grid.hpp"
 #include "render/scene/scene.hpp"
+#include "render/tiles/tile_background.hpp"
 
 #include <memory>
 #include <span>
@@ -14,8 +15,8 @@ struct TileLook {
     int across = 1;    ///< n: n x n tiles are drawn at once
 };
 
-/// Draws web map tiles with the painter of maps: the ground, roads without a measurement in light
-/// grey, then every measured road as a core of its class's colour in a casing.
+/// Draws web map tiles with the painter of maps: the ground or a background, roads without a
+/// measurement in light grey, then every measured road as a core of its class's colour in a casing.
 ///
 /// A pixel depends on its position in the world and on the lines near it, not on the tile: tiles
 /// drawn one by one are, byte for byte, the parts of one large picture. Widths therefore depend on
@@ -41,8 +42,14 @@ public:
     ///               point with one of these; in the same order for every tile. Distant lines cost
     ///               little. With labels, all lines of every label cell that a tile touches
     ///               (label_cell_px).
-    /// \throws InputError  if a line's class is not in the table, or OpenGL cannot draw
-    Image draw(const TileId& first, std::span<const MapLine> lines);
+    /// \param background  null for plain ground, the same for all tiles of a zoom: pieces of the
+    ///                    tiles that meet these, grown by background_reach_px; with labels, all
+    ///                    places of every label cell that a tile touches
+    /// \throws InputError  if a line's class is not in the table, the background is damaged, or
+    ///                     OpenGL cannot draw
+    Image draw(const TileId& first,
+               std::span<const MapLine> lines,
+               const TileBackground* background = nullptr);
 
     /// Returns the maximum distance of a line's painted pixels from its points.
     double reach_px(int zoom) const;

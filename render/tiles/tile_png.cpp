@@ -1,5 +1,6 @@
 #include "render/tiles/tile_png.hpp"
 
+#include "render/background/background_painter.hpp"
 #include "render/scene/colour.hpp"
 
 #include <libdeflate.h>
@@ -46,19 +47,52 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b, double share) {
     return part(red_a, red_b) << 16 | part(green_a, green_b) << 8 | part(blue_a, blue_b);
 }
 
+using Sides = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+void append_steps(std::vector<std::uint32_t>& colours, const Sides& sides, std::size_t steps) {
+    for (const auto& [from, to] : sides) {
+        for (std::size_t i = 1; i <= steps; ++i) {
+            colours.push_back(mixed(from, to, double(i) / double(steps + 1)));
+        }
+    }
+}
+
+/// Appends the colours of a background, and steps to those beside and on it. They are near the
+/// ground's, so that few steps are enough.
+void append_background(std::vector<std::uint32_t>& colours,
+                       const Palette& other,
+                       MapStyle::Theme theme) {
+    constexpr std::size_t steps = 3;
+    Sides sides;
+    for (std::size_t i = 0; i < background_kinds; ++i) {
+        const auto colour = background_colour(static_cast<BackgroundKind>(i), theme);
+        if (std::ranges::find(colours, colour) != colours.end()) {
+            continue;
+        }
+        colours.push_back(colour);
+        for (const auto beside : {other.ground, other.casing, other.ink}) {
+            sides.emplace_back(colour, beside);
+        }
+    }
+    append_steps(colours, sides, steps);
+}
+
 /// Returns the colours of a style, then steps between those that are adjacent on a tile.
-std::vector<std::uint32_t> palette_of(const MapStyle& style) {
+std::vector<std::uint32_t> palette_of(const MapStyle& style, bool has_background) {
     const auto other = palette(style);
     const auto ramp = class_colours(style, classes_of(style).classes.size());
 
     std::vector<std::uint32_t> colours{
         other.ground, other.casing, other.unmeasured, other.few_passes, other.ink, other.quiet_ink};
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> sides{{other.ground, other.casing},
-                                                               {other.ground, other.unmeasured},
-                                                               {other.casing, other.unmeasured},
-                                                               {other.casing, other.few_passes},
-                                                               {other.ground, other.quiet_ink},
-                                                               {other.ground, other.ink}};
+    if (has_background) {
+        append_background(colours, other, style.theme);
+    }
+    Sides sides{{other.ground, other.casing},
+                {other.ground, other.unmeasured},
+                {other.casing, other.unmeasured},
+                {other.casing, other.few_passes},
+                {other.ground, other.quiet_ink},
+                {other.ground, other.ink}};
     // Any two classes can meet, but with many classes there is room for the steps of neighbours
     // only.
     const std::size_t apart = ramp.size() <= 5 ? ramp.size() : 1;
@@ -70,12 +104,7 @@ std::vector<std::uint32_t> palette_of(const MapStyle& style) {
             sides.emplace_back(ramp[k], ramp[i]);
         }
     }
-    const std::size_t steps = (max_colours - colours.size()) / sides.size();
-    for (const auto& [from, to] : sides) {
-        for (std::size_t i = 1; i <= steps; ++i) {
-            colours.push_back(mixed(from, to, double(i) / double(steps + 1)));
-        }
-    }
+    append_steps(colours, sides, (max_colours - colours.size()) / sides.size());
     std::ranges::sort(colours);
     const auto twice = std::ranges::unique(colours);
     colours.erase(twice.begin(), twice.end());
@@ -140,8 +169,8 @@ private:
 } // namespace
 
 struct TilePng::Impl {
-    explicit Impl(const MapStyle& style)
-        : nearest{palette_of(style)}, ground{macadam::palette(style).ground},
+    Impl(const MapStyle& style, bool has_background)
+        : nearest{palette_of(style, has_background)}, ground{macadam::palette(style).ground},
           compressor{libdeflate_alloc_compressor(compression)} {
         if (compressor == nullptr) {
             throw std::bad_alloc{};
@@ -210,7 +239,8 @@ Bytes TilePng::Impl::file(int side_px) {
     return bytes;
 }
 
-TilePng::TilePng(const MapStyle& style) : impl_{std::make_unique<Impl>(style)} {}
+TilePng::TilePng(const MapStyle& style, bool has_background)
+    : impl_{std::make_unique<Impl>(style, has_background)} {}
 TilePng::~TilePng() = default;
 TilePng::TilePng(TilePng&&) noexcept = default;
 TilePng& TilePng::operator=(TilePng&&) noexcept = default;

@@ -23,8 +23,9 @@ struct PictureCut {
 /// at most. The stream is compressed by libdeflate.
 class TilePng {
 public:
+    /// \param has_background  false: the palette has no colours of a background, and more steps
     /// \throws InputError  for an unknown ramp
-    explicit TilePng(const MapStyle& style);
+    explicit TilePng(const MapStyle& style, bool has_background = false);
     ~TilePng();
     TilePng(TilePng&&) noexcept;
     TilePng& operator=(TilePng&&) noexcept;
@@ -32,7 +33,7 @@ public:
     /// \param cut  inside the picture
     std::vector<std::uint8_t> encode(const Image& image, const PictureCut& cut);
 
-    /// Returns a tile without roads.
+    /// Returns a tile of the ground alone.
     std::vector<std::uint8_t> empty(int side_px);
 
     /// 0xRRGGBB, at most 255.

@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const TileSetNote& 
         {"type", "overlay"}};
     if (is_vector) {
         JsonObject json;
-        json.add("vector_layers", JsonRaw{layers_json(note)});
+        json.add("vector_layers", JsonRaw{layers_json(note.layers)});
         rows.emplace_back("json", json.text());
     }
     return rows;

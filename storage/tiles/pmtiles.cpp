@@ -107,7 +107,7 @@ std::string metadata_of(const TileSetNote& note) {
         .add("attribution", note.attribution)
         .add("type", "overlay");
     if (note.format == TileSetNote::Format::mvt) {
-        object.add("vector_layers", JsonRaw{layers_json(note)});
+        object.add("vector_layers", JsonRaw{layers_json(note.layers)});
     }
     return object.text();
 }

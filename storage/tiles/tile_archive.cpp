@@ -83,9 +83,9 @@ void TileIndex::sort() {
     places_ = std::move(places);
 }
 
-std::string layers_json(const TileSetNote& note) {
-    std::vector<std::string> layers;
-    for (const auto& layer : note.layers) {
+std::string layers_json(std::span<const TileLayer> layers) {
+    std::vector<std::string> texts;
+    for (const auto& layer : layers) {
         JsonObject fields;
         for (const auto& field : layer.fields) {
             fields.add(field.name, field.kind);
@@ -96,9 +96,9 @@ std::string layers_json(const TileSetNote& note) {
             .add("minzoom", std::int64_t{layer.min_zoom})
             .add("maxzoom", std::int64_t{layer.max_zoom})
             .add("fields", JsonRaw{fields.text()});
-        layers.push_back(object.text());
+        texts.push_back(object.text());
     }
-    return layers.empty() ? std::string{} : json_array(layers);
+    return texts.empty() ? std::string{} : json_array(texts);
 }
 
 TileSetCentre centre_of(const TileSetNote& note) {

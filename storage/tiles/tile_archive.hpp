@@ -28,6 +28,9 @@ struct TileLayer {
     std::vector<TileField> fields;
 };
 
+/// Formats vector layers as the JSON array of TileJSON; "" without any.
+std::string layers_json(std::span<const TileLayer> layers);
+
 /// Metadata of an archive.
 struct TileSetNote {
     enum class Format { png, mvt }; ///< mvt: Mapbox Vector Tiles, each compressed by gzip

@@ -86,7 +86,7 @@ std::string metadata_of(const TileSetNote& note) {
         .add("center",
              JsonRaw{fmt::format("[{:.7f},{:.7f},{}]", middle.lon_deg, middle.lat_deg, zoom)});
     if (note.format == TileSetNote::Format::mvt) {
-        json.add("vector_layers", JsonRaw{layers_json(note)});
+        json.add("vector_layers", JsonRaw{layers_json(note.layers)});
     } else {
         json.add("tileSize", std::int64_t{note.tile_px});
     }

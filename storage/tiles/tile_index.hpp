@@ -73,9 +73,6 @@ void write_tile_folder(const std::filesystem::path& temporary,
                        const TileSetNote& note,
                        const Progress& progress);
 
-/// Vector layers as a JSON array, in the form common to all formats; "" for image tiles.
-std::string layers_json(const TileSetNote& note);
-
 /// Initial view: the centre, at the highest zoom level at which the extent is at most two tiles
 /// wide.
 struct TileSetCentre {

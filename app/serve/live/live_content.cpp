@@ -86,6 +86,7 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
     if (const auto number = file_number(file_); file_number_ != number) {
         store.expect_in_place();
         tile_maker_.forget();
+        made_page_.reset();
         file_number_ = number;
     }
     const auto begin = Clock::now();
@@ -104,6 +105,9 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
             page_.reset();
         }
     }
+    if (tiles->count() == 0) {
+        made_page_.reset();
+    }
     if (!has_page_ || tiles->count() == 0) {
         return;
     }
@@ -114,15 +118,36 @@ void LiveContent::make(const std::string& version, const std::stop_token& stop) 
         console_.say(no_page.what());
         return;
     }
+    const auto begin_of_page = Clock::now();
+    make_page(store, version, stop);
+    console_.detail(
+        fmt::format("the page made in {:.1f} s",
+                    std::chrono::duration<double>{Clock::now() - begin_of_page}.count()));
+}
+
+void LiveContent::make_page(const StoreReader& store,
+                            const std::string& version,
+                            const std::stop_token& stop) {
+    const auto before = std::exchange(made_page_, std::nullopt);
+    auto moment = store.moment(); // what is committed from now on is made again the next time
+    std::optional<EarlierSite> earlier;
+    if (auto changed = before ? store.changed_since(before->moment) : std::nullopt) {
+        EarlierSite site{before->folder->path() / "site", before->segments, *std::move(changed)};
+        earlier = std::move(site);
+    }
     auto folder = std::make_shared<const TemporaryFolder>(beside());
-    export_site(store,
-                {},
-                folder->path() / "site",
-                {.title = file_.stem().string(),
-                 .left_hand = false,
-                 .tiles = {.min_zoom = TileSet::min_zoom, .max_zoom = TileSet::max_zoom},
-                 .served_version = version},
-                Console{Verbosity::quiet, stop});
+    auto segments =
+        export_site(store,
+                    {},
+                    folder->path() / "site",
+                    {.title = file_.stem().string(),
+                     .left_hand = false,
+                     .tiles = {.min_zoom = TileSet::min_zoom, .max_zoom = TileSet::max_zoom},
+                     .served_version = version,
+                     .earlier = earlier ? &*earlier : nullptr},
+                    Console{Verbosity::quiet, stop});
+    MadePage made{folder, std::move(moment), std::move(segments)};
+    made_page_ = std::move(made);
     const std::lock_guard lock{mutex_};
     if (!was_dropped_) {
         page_ = std::move(folder);

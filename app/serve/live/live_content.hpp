@@ -1,16 +1,20 @@
 #pragma once
 
 #include "app/cli/console.hpp"
+#include "app/export/site_segments.hpp"
 #include "app/serve/live/tile_maker.hpp"
 #include "app/serve/live/tile_set.hpp"
 #include "storage/atomic/temporary_folder.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "storage/store/records/publication.hpp"
+#include "storage/store/records/store_moment.hpp"
 
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -42,14 +46,22 @@ public:
 private:
     void work(const std::stop_token& stop);
     void make(const std::string& version, const std::stop_token& stop);
+    void
+    make_page(const StoreReader& store, const std::string& version, const std::stop_token& stop);
 
     std::filesystem::path file_;
     Audience audience_;
     const Console& console_;
     bool has_page_ = true; ///< false once it was refused
-    TileMaker tile_maker_; ///< of the thread, as is the one below
+    TileMaker tile_maker_; ///< of the thread, as are those below
     std::uint64_t file_number_ = 0;
-    mutable std::mutex mutex_; ///< guards the members below
+    struct MadePage {
+        std::shared_ptr<const TemporaryFolder> folder;
+        StoreMoment moment;
+        SiteSegments segments;
+    };
+    std::optional<MadePage> made_page_; ///< that the next one builds on
+    mutable std::mutex mutex_;          ///< guards the members below
     std::string wanted_;
     bool published_alone_ = false; ///< of the wanted version
     bool was_dropped_ = false;     ///< and is to be made again at once

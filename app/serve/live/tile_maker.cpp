@@ -1,6 +1,8 @@
 #include "app/serve/live/tile_maker.hpp"
 
+#include "app/tiles/tile_layers.hpp"
 #include "mapping/style/iri_class.hpp"
+#include "storage/tiles/tile_archive.hpp"
 
 #include <string_view>
 #include <utility>
@@ -35,7 +37,11 @@ TileMaker::make(const StoreReader& store, const std::string& version, const Prog
     made->pyramid.update(made->source, changed, put, progress);
     made_ = std::move(made);
     compact();
-    return std::make_shared<const TileSet>(version, made_->source.box, made_->file, made_->places);
+    return std::make_shared<const TileSet>(version,
+                                           layers_json(tile_layers(store, plan)),
+                                           made_->source.box,
+                                           made_->file,
+                                           made_->places);
 }
 
 /// Reads what has changed, or all, of one commit. \returns the tiles whose segments changed.

@@ -6,10 +6,12 @@
 namespace macadam {
 
 TileSet::TileSet(std::string version,
+                 std::string layers,
                  const GeoBox& box,
                  std::shared_ptr<const TempFile> file,
                  Places places)
-    : version_{std::move(version)}, box_{box}, file_{std::move(file)}, places_{std::move(places)} {
+    : version_{std::move(version)}, layers_{std::move(layers)}, box_{box}, file_{std::move(file)},
+      places_{std::move(places)} {
     if (places_.empty()) {                     // no box is around nothing
         constexpr double lat_deg = 85.0511288; // of Web Mercator
         box_ = {-180, -lat_deg, 180, lat_deg};

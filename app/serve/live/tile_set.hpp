@@ -21,6 +21,7 @@ public:
     /// \param box     around all segments with a value
     /// \param file    may hold tiles of other versions, too
     TileSet(std::string version,
+            std::string layers,
             const GeoBox& box,
             std::shared_ptr<const TempFile> file,
             Places places);
@@ -30,6 +31,9 @@ public:
 
     const std::string& version() const { return version_; }
 
+    /// Layers of the tiles, as TileJSON describes them.
+    const std::string& layers() const { return layers_; }
+
     /// Box around all segments with a value, of the world if there are none.
     const GeoBox& box() const { return box_; }
     std::size_t count() const { return places_.size(); }
@@ -38,6 +42,7 @@ public:
 
 private:
     std::string version_;
+    std::string layers_;
     GeoBox box_;
     std::shared_ptr<const TempFile> file_;
     Places places_;

@@ -1,7 +1,6 @@
 #include "app/serve/ogc/tiles_api.hpp"
 
 #include "app/cli/arguments.hpp"
-#include "render/tiles/mvt_tile.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/text.hpp"
 
@@ -190,12 +189,6 @@ HttpResponse tile_json_page(const ApiContext& context, const TileSet* tiles) {
     if (tiles == nullptr) {
         return not_ready();
     }
-    JsonObject fields;
-    for (const auto& field : vector_fields(*class_table(context.store.settings().class_table))) {
-        fields.add(field.name, field.is_number ? "Number" : "String");
-    }
-    JsonObject layer;
-    layer.add("id", std::string{roughness_layer}).add("fields", JsonRaw{fields.text()});
     const auto& [west, south, east, north] = tiles->box();
     JsonObject page;
     page.add("tilejson", "3.0.0")
@@ -210,7 +203,7 @@ HttpResponse tile_json_page(const ApiContext& context, const TileSet* tiles) {
         .add("maxzoom", std::int64_t{TileSet::max_zoom})
         .add("bounds",
              JsonRaw{fmt::format("[{:.7f},{:.7f},{:.7f},{:.7f}]", west, south, east, north)})
-        .add("vector_layers", JsonRaw{json_array({layer.text()})});
+        .add("vector_layers", JsonRaw{tiles->layers()});
     return api_page(context, "TileJSON", page.text());
 }
 

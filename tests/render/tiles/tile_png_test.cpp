@@ -1,5 +1,6 @@
 #include "render/tiles/tile_png.hpp"
 
+#include "render/background/background_painter.hpp"
 #include "render/scene/colour.hpp"
 #include "render/tiles/tile_painter.hpp"
 #include "tile_scene.hpp"
@@ -69,7 +70,14 @@ TEST(TilePng, KeepsTheColoursOfTheStyle) {
          {MapStyle::Theme::light, MapStyle::Theme::dark, MapStyle::Theme::print}) {
         for (const auto* ramp : {"rdylbu", "cividis", "viridis"}) {
             const auto* five = class_table("five");
-            TilePng png{{.theme = theme, .ramp = ramp, .classes = five}};
+            MapStyle style{.theme = theme, .ramp = ramp, .classes = five};
+            TilePng with_background{style, true};
+            for (std::size_t i = 0; i < background_kinds; ++i) {
+                const auto rgb = background_colour(static_cast<BackgroundKind>(i), theme);
+                EXPECT_EQ(with_background.shown(rgb), rgb);
+            }
+            EXPECT_LE(with_background.palette().size(), 255U);
+            TilePng png{style};
             const auto colours = palette(theme);
             EXPECT_EQ(png.shown(colours.ground), colours.ground);
             EXPECT_EQ(png.shown(colours.casing), colours.casing);

@@ -1,0 +1,284 @@
+#include "app/export/site_segments.hpp"
+
+#include "app/site/site_json.hpp"
+#include "app/site/site_manifest.hpp"
+#include "estimator/common/error.hpp"
+#include "mapping/style/iri_class.hpp"
+#include "mapping/tiles/tile_grid.hpp"
+#include "storage/store/rows/segment_row.hpp"
+#include "storage/text/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+void expect_not_stopped(const Progress& progress) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{"stopped"};
+    }
+}
+
+/// Returns runs of neighbouring keys.
+std::vector<SegmentRange> ranges_of(std::span<const SegmentRecord> records) {
+    std::vector<SegmentRange> ranges;
+    for (const auto& record : records) {
+        const auto& key = record.segment.key;
+        if (!ranges.empty() && ranges.back().way_id == key.way_id &&
+            ranges.back().forward == key.forward && ranges.back().past == key.index) {
+            ++ranges.back().past;
+        } else {
+            ranges.push_back({key.way_id, key.forward, key.index, key.index + 1});
+        }
+    }
+    return ranges;
+}
+
+using MonthsOfSegments = std::map<SegmentKey, std::vector<SegmentMonth>>;
+
+/// Reads what the passes of each month alone say about some segments.
+MonthsOfSegments months_of(const StoreReader& store,
+                           const SegmentFilter& filter,
+                           std::span<const SegmentRecord> records,
+                           const std::vector<std::string>& months) {
+    MonthsOfSegments found;
+    SegmentFilter selected = filter; // of cars and references, too
+    selected.ranges = ranges_of(records);
+    selected.min_passes = 0;
+    selected.min_vehicles = 0;
+    selected.class_name.clear();
+    for (const auto& month : months) {
+        selected.period = period_of_month(month);
+        store.visit(selected, [&](const SegmentRecord& record) {
+            if (record.state) {
+                found[record.segment.key].push_back({month, *record.state});
+            }
+        });
+    }
+    return found;
+}
+
+// -------------------------------------------------------------------------------------- months
+
+std::string compare_file(const SegmentRecord& record) {
+    const auto place = tile_position(record.segment.line.front(), compare_zoom);
+    return fmt::format(
+        "months/{}/{}/{}.json", compare_zoom, static_cast<int>(place.x), static_cast<int>(place.y));
+}
+
+/// Files with the months of the segments of each tile, for the comparison of two.
+class CompareFiles {
+public:
+    CompareFiles(const SiteFolder& folder, const std::vector<std::string>& months)
+        : folder_{&folder}, months_{&months} {}
+
+    void add(std::span<const SegmentRecord> records, const MonthsOfSegments& found) {
+        std::map<std::string, std::string> texts;
+        for (const auto& record : records) {
+            const auto months = found.find(record.segment.key);
+            if (months == found.end()) {
+                continue;
+            }
+            auto name = compare_file(record);
+            auto& text = texts[name];
+            text += begun_.insert(std::move(name)).second ? "{" : ",\n";
+            text += fmt::format(
+                "{}:{}", json_text(name_of(record.segment.key)), months_json(months->second));
+        }
+        for (const auto& [name, text] : texts) {
+            folder_->write(name, text, std::ios::app);
+        }
+    }
+
+    void finish() const {
+        for (const auto& name : begun_) {
+            folder_->write(name, "}", std::ios::app);
+        }
+    }
+
+private:
+    std::string months_json(std::span<const SegmentMonth> months) const {
+        std::vector<std::string> rows;
+        for (const auto& [month, state] : months) {
+            rows.push_back(fmt::format("[{},{:.3f},{:.3f}]",
+                                       std::ranges::lower_bound(*months_, month) - months_->begin(),
+                                       mm_per_m(state.iri_um),
+                                       mm_per_m(state.sd_um)));
+        }
+        return json_array(rows);
+    }
+
+    const SiteFolder* folder_;
+    const std::vector<std::string>* months_;
+    std::set<std::string> begun_;
+};
+
+// ------------------------------------------------------------------------------------- changes
+
+SegmentKey first_of(const SegmentRange& range) {
+    return {range.way_id, range.forward, range.first};
+}
+SegmentKey last_of(const SegmentRange& range) {
+    return {range.way_id, range.forward, range.past - 1};
+}
+
+/// What has changed since an earlier site, and where its unchanged files are.
+class Changes {
+public:
+    explicit Changes(const EarlierSite& earlier) : earlier_{&earlier}, changed_{earlier.changed} {
+        std::ranges::sort(changed_, {}, first_of);
+    }
+
+    bool touch(const SegmentKey& first, const SegmentKey& last) const {
+        const auto next = std::ranges::lower_bound(changed_, first, {}, last_of);
+        return next != changed_.end() && first_of(*next) <= last;
+    }
+
+    /// Returns the earlier file of an unchanged shard.
+    std::optional<std::filesystem::path> file_of(const SiteShard& shard) const {
+        const auto& shards = earlier_->segments.shards;
+        const auto found = std::ranges::lower_bound(shards, shard.first, {}, &SiteShard::first);
+        const bool is_same = found != shards.end() && found->first == shard.first &&
+                             found->last == shard.last && found->count == shard.count &&
+                             !touch(shard.first, shard.last);
+        return is_same ? std::optional{earlier_->folder /
+                                       fmt::format("segments/{}.json", found - shards.begin())}
+                       : std::nullopt;
+    }
+
+    const std::filesystem::path& folder() const { return earlier_->folder; }
+
+private:
+    const EarlierSite* earlier_;
+    std::vector<SegmentRange> changed_;
+};
+
+/// Writes the files of tiles with changed segments, and takes over the others.
+void update_compare_files(const StoreReader& store,
+                          const SegmentFilter& filter,
+                          std::span<const SegmentRecord> records,
+                          const std::vector<std::string>& months,
+                          const SiteFolder& folder,
+                          const Changes& changes) {
+    std::map<std::string, bool> files; // those that change
+    for (const auto& record : records) {
+        const auto& key = record.segment.key;
+        auto& changed = files[compare_file(record)];
+        changed = changed || changes.touch(key, key);
+    }
+    std::map<std::string, std::vector<SegmentRecord>> to_write;
+    for (const auto& record : records) {
+        if (auto name = compare_file(record); files.at(name)) {
+            to_write[std::move(name)].push_back(record);
+        }
+    }
+    CompareFiles compare{folder, months};
+    for (const auto& [name, of_tile] : to_write) {
+        compare.add(of_tile, months_of(store, filter, of_tile, months));
+    }
+    compare.finish();
+    for (const auto& [name, changed] : files) {
+        if (!changed) {
+            folder.take(changes.folder() / name, name); // without dated passes there is none
+        }
+    }
+}
+
+/// Tests whether the earlier months have the same numbers in the list of all.
+bool begin_with(const std::vector<std::string>& months, const std::vector<std::string>& earlier) {
+    return earlier.size() <= months.size() &&
+           std::equal(earlier.begin(), earlier.end(), months.begin());
+}
+
+/// Tests whether a shard may end before a key, for one of 128 at random.
+///
+/// Source: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA
+/// 2014: the mixing function.
+bool is_border(const SegmentKey& key) {
+    auto mixed = static_cast<std::uint64_t>(key.way_id) * 0x9e3779b97f4a7c15U +
+                 2 * std::uint64_t{key.index} + (key.forward ? 1 : 0);
+    mixed = (mixed ^ (mixed >> 30U)) * 0xbf58476d1ce4e5b9U;
+    mixed = (mixed ^ (mixed >> 27U)) * 0x94d049bb133111ebU;
+    constexpr unsigned top_bits = 57;
+    return mixed >> top_bits == 0;
+}
+
+} // namespace
+
+std::vector<SiteShard> shards_of(std::span<const SegmentRecord> records) {
+    constexpr std::size_t least = 128, most = 512;
+    std::vector<SiteShard> shards;
+    for (const auto& record : records) {
+        const auto& key = record.segment.key;
+        const bool ends = shards.empty() || shards.back().count == most ||
+                          (shards.back().count >= least && is_border(key));
+        if (ends) {
+            shards.push_back({key, key, 0});
+        }
+        shards.back().last = key;
+        ++shards.back().count;
+    }
+    return shards;
+}
+
+SiteSegments write_segments(const StoreReader& store,
+                            const SegmentFilter& filter,
+                            std::span<const SegmentRecord> records,
+                            const std::vector<std::string>& months,
+                            const SiteFolder& folder,
+                            const EarlierSite* earlier,
+                            const Progress& progress) {
+    const auto& classes = *class_table(store.settings().class_table);
+    std::optional<Changes> changes;
+    if (earlier != nullptr && begin_with(months, earlier->segments.months)) {
+        changes.emplace(*earlier);
+    }
+    SiteSegments made{shards_of(records), months};
+    std::vector<std::string> first_keys;
+    CompareFiles compare{folder, months};
+    std::size_t begin = 0;
+    for (const auto& shard : made.shards) {
+        progress(begin, records.size());
+        expect_not_stopped(progress);
+        const auto segments = records.subspan(begin, shard.count);
+        begin += shard.count;
+        const auto name = fmt::format("segments/{}.json", first_keys.size());
+        first_keys.push_back(name_of(shard.first));
+        if (const auto file = changes ? changes->file_of(shard) : std::nullopt;
+            file && folder.take(*file, name)) {
+            continue;
+        }
+        const auto found = months_of(store, filter, segments, months);
+        JsonObject object;
+        for (const auto& record : segments) {
+            const auto each = found.find(record.segment.key);
+            object.add(name_of(record.segment.key),
+                       JsonRaw{segment_json(record,
+                                            classes,
+                                            each == found.end() ? std::span<const SegmentMonth>{}
+                                                                : each->second)});
+        }
+        folder.write(name, object.text());
+        if (!changes) {
+            compare.add(segments, found);
+        }
+    }
+    if (changes) {
+        update_compare_files(store, filter, records, months, folder, *changes);
+    } else {
+        compare.finish();
+    }
+    folder.write("segments/index.json", json_string_array(first_keys));
+    return made;
+}
+
+} // namespace macadam
