@@ -114,7 +114,7 @@ WrittenTiles write_vector_tiles(const StoreReader& store,
                                      "at least one",
                                      store.file().string())};
     }
-    TileArchive archive{file, note_of(store, source.box, plan)};
+    TileArchive archive{file, note_of(store, tile_bounds(store, source.box), plan)};
     const auto count = make_vector_tiles(
         source,
         *class_table(store.settings().class_table),

@@ -56,4 +56,15 @@ std::vector<TileLayer> tile_layers(const StoreReader& store, const TilePlan& pla
     return layers;
 }
 
+GeoBox tile_bounds(const StoreReader& store, const GeoBox& measured) {
+    if (StoreBackground{store}.size().is_empty()) {
+        return measured;
+    }
+    const auto all = store.map_box();
+    return {.west_deg = std::min(measured.west_deg, all.west_deg),
+            .south_deg = std::min(measured.south_deg, all.south_deg),
+            .east_deg = std::max(measured.east_deg, all.east_deg),
+            .north_deg = std::max(measured.north_deg, all.north_deg)};
+}
+
 } // namespace macadam

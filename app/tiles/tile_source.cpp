@@ -38,8 +38,7 @@ struct OpenBackground {
     explicit OpenBackground(const StoreReader& reader) : store{reader} {}
 
     std::string layers_of(const TileId& tile) {
-        constexpr double margin = -1e-6; // of a tile: its neighbours do not count
-        const auto box = tile_box(tile, margin);
+        const auto box = tile_box(tile, double{tile_buffer} / tile_extent);
         std::vector<BackgroundTile> tiles;
         std::vector<PlaceName> places;
         {

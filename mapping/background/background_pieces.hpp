@@ -27,11 +27,15 @@ struct BackgroundPiece {
     std::vector<std::vector<CellPoint>> paths;
 };
 
-/// Part of a piece within a quarter of its tile, in cells of that quarter.
+/// Square of cells; its borders belong to it.
+struct CellSquare {
+    std::int32_t low, high; ///< along both axes
+};
+
+/// Part of a piece, in any cells, within a square. Cuts are rounded to cells.
 ///
-/// \param quarter  0 north-west, 1 north-east, 2 south-west, 3 south-east
 /// \returns `std::nullopt` if nothing of it lies there.
-std::optional<BackgroundPiece> piece_in_quarter(const BackgroundPiece& piece, unsigned quarter);
+std::optional<BackgroundPiece> piece_within(const BackgroundPiece& piece, const CellSquare& square);
 
 /// Pieces within one tile of a level (mapping/background/background_levels.hpp).
 struct BackgroundTile {

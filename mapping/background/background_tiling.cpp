@@ -161,18 +161,11 @@ std::vector<Path> paths_at(const BackgroundFeature& feature, const BackgroundLev
 
 } // namespace
 
-std::optional<BackgroundPiece> piece_in_quarter(const BackgroundPiece& piece, unsigned quarter) {
-    constexpr std::int32_t half = background_cells / 2;
+std::optional<BackgroundPiece> piece_within(const BackgroundPiece& piece,
+                                            const CellSquare& square) {
     const bool are_lines = is_line_kind(piece.kind);
-    const auto west = static_cast<std::int32_t>(quarter % 2) * half;
-    const auto north = static_cast<std::int32_t>(quarter / 2) * half;
-    auto paths = paths_between(piece.paths, are_lines, axes[0], west, west + half);
-    paths = paths_between(paths, are_lines, axes[1], north, north + half);
-    for (auto& path : paths) {
-        for (auto& point : path) {
-            point = {2 * (point.x - west), 2 * (point.y - north)};
-        }
-    }
+    auto paths = paths_between(piece.paths, are_lines, axes[0], square.low, square.high);
+    paths = paths_between(paths, are_lines, axes[1], square.low, square.high);
     return paths.empty() ? std::nullopt : piece_of(piece.kind, std::move(paths), 0, 0);
 }
 

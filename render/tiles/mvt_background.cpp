@@ -104,12 +104,11 @@ double area_of(const std::vector<CellPoint>& ring) {
 }
 
 /// Path in units of a tile; empty if too small. \param shrink  bits by which cells are finer
-std::vector<CellPoint>
-scaled(const std::vector<CellPoint>& path, const CellPoint& corner, int shrink, bool is_ring) {
+std::vector<CellPoint> scaled(const std::vector<CellPoint>& path, int shrink, bool is_ring) {
     constexpr double smallest_area = 4; // half a pixel of 512
     std::vector<CellPoint> units;
     for (const auto& point : path) {
-        const CellPoint unit{(corner.x + point.x) >> shrink, (corner.y + point.y) >> shrink};
+        const CellPoint unit{point.x >> shrink, point.y >> shrink};
         if (units.empty() || units.back() != unit) {
             units.push_back(unit);
         }
@@ -132,10 +131,8 @@ public:
             if (tile_.zoom < kinds[static_cast<std::size_t>(piece.kind)].min_zoom) {
                 return;
             }
-            if (source.tile.zoom >= tile_.zoom) {
-                add_scaled(piece, source.tile);
-            } else {
-                add_part(piece, source.tile);
+            if (const auto within = piece_within(moved(piece, source.tile), shown(source.tile))) {
+                add_scaled(*within, source.tile);
             }
         });
     }
@@ -143,35 +140,44 @@ public:
     const std::map<BackgroundKind, Pen>& pens() const { return pens_; }
 
 private:
-    /// Adds a piece of a larger tile.
-    void add_part(const BackgroundPiece& whole, const TileId& source) {
-        std::optional<BackgroundPiece> piece{whole};
-        for (int zoom = source.zoom + 1; piece && zoom <= tile_.zoom; ++zoom) {
-            const auto shift = static_cast<unsigned>(tile_.zoom - zoom);
-            const auto quarter = (tile_.x >> shift & 1U) + 2 * (tile_.y >> shift & 1U);
-            piece = piece_in_quarter(*piece, quarter);
-        }
-        if (piece) {
-            add_scaled(*piece, tile_);
-        }
+    /// Bits by which the cells of moved() are finer than those of this tile.
+    int finer_than_own(const TileId& source) const { return std::max(0, source.zoom - tile_.zoom); }
+
+    /// The tile with its buffer, in the cells of moved().
+    CellSquare shown(const TileId& source) const {
+        constexpr std::int32_t buffer = tile_buffer * (background_cells / tile_extent);
+        const auto finer = static_cast<unsigned>(finer_than_own(source));
+        return {-(buffer << finer), (background_cells + buffer) << finer};
     }
 
-    /// Adds a piece of a tile that is this one or lies in it.
-    void add_scaled(const BackgroundPiece& piece, const TileId& source) {
-        const int finer = source.zoom - tile_.zoom;
+    /// A piece in cells from this tile's corner, as fine as the finer of both tiles.
+    BackgroundPiece moved(const BackgroundPiece& piece, const TileId& source) const {
+        const auto up = static_cast<unsigned>(std::max(0, tile_.zoom - source.zoom));
+        const auto down = static_cast<unsigned>(finer_than_own(source));
         const auto corner = [&](std::uint32_t at, std::uint32_t of_tile) {
-            return static_cast<std::int32_t>((at - (of_tile << static_cast<unsigned>(finer)))
-                                             << background_cell_bits);
+            return ((std::int64_t{at} << up) - (std::int64_t{of_tile} << down)) * background_cells;
         };
+        const auto x = corner(source.x, tile_.x), y = corner(source.y, tile_.y);
+        const auto cell = [&](std::int32_t at, std::int64_t from) {
+            return static_cast<std::int32_t>((std::int64_t{at} << up) + from);
+        };
+        auto result = piece;
+        for (auto& path : result.paths) {
+            for (auto& point : path) {
+                point = {cell(point.x, x), cell(point.y, y)};
+            }
+        }
+        return result;
+    }
+
+    void add_scaled(const BackgroundPiece& piece, const TileId& source) {
         constexpr int extent_bits = 12;
         static_assert(tile_extent == 1 << extent_bits);
+        const int shrink = finer_than_own(source) + background_cell_bits - extent_bits;
         const bool is_ring = !is_line_kind(piece.kind);
         bool has_outer = false; // of the rings that follow
         for (const auto& path : piece.paths) {
-            const auto units = scaled(path,
-                                      {corner(source.x, tile_.x), corner(source.y, tile_.y)},
-                                      finer + background_cell_bits - extent_bits,
-                                      is_ring);
+            const auto units = scaled(path, shrink, is_ring);
             if (is_ring && area_of(path) > 0) {
                 has_outer = !units.empty();
             }

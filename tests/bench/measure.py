@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Measures the program and its parts and writes what was found as Markdown.
 
-usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--cars N] [NAME...]
+usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--cars N] [--soak MINUTES] [NAME...]
 
 BUILD_DIR      a release build with the target `benches`
 WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
+--soak MINUTES how long `serve` also works at half load, to see whether it grows
 NAME           start process estimation match store calibration render vector_tile web serve; all when none
                is named
 
@@ -392,7 +393,7 @@ def measured(name, arguments, macadam):
     if name == "web":
         return web_page(arguments.build, arguments.work, macadam)
     if name == "serve":
-        return serve_report(macadam, tile_store(arguments.build, arguments.work, 223), arguments.work / "serve", table)
+        return serve_report(macadam, tile_store(arguments.build, arguments.work, 223), arguments.work / "serve", table, arguments.soak)
     if name == "match":
         return match_report(arguments.build, arguments.kubicka)
     text = part(arguments.build, name, PARTS[name])
@@ -414,6 +415,7 @@ def main():
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--kubicka", type=Path)
     parser.add_argument("--cars", type=int, default=2500)
+    parser.add_argument("--soak", type=float, default=0, metavar="MINUTES")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_intermixed_args()
     if unknown := set(arguments.names) - set(TITLES):

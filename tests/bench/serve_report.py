@@ -1,4 +1,4 @@
-"""The server beside its peers: tiles as files by nginx, tiles by ST_AsMVT of PostGIS; pages of features; slow clients; an import.
+"""The server beside its peers: tiles as files by nginx, tiles by ST_AsMVT of PostGIS; pages of features; slow clients; a database that grows.
 
 Loads are made by wrk. Each figure comes with its peer's of the same run: the machine is shared, the ratio is what counts.
 """
@@ -16,6 +16,8 @@ import sys
 import tempfile
 import threading
 import time
+
+from serve_growth import made_trips, new_version_s, reads_during_import, soak
 
 SECONDS = 5  # of each load
 ZOOM = 15  # where a tile of the bench's town holds about 1,000 segments
@@ -166,7 +168,40 @@ def slow_clients(server):
     return sorted(times_ms)[-2]
 
 
-def serve_report(macadam, store, work, table):
+def growth(macadam, store, work, folder, items, vector, table):
+    """Rows of a table: what the server does with a copy of the store into which trips are imported."""
+    growing = work / "growing.gpkg"
+    for left in work.glob("growing.gpkg*"):
+        left.unlink()
+    for file in store.parent.glob(f"{store.name}*"):
+        shutil.copy(file, work / file.name.replace(store.name, growing.name))
+    server = Server(macadam, growing)
+    begin = time.monotonic()
+    while server.get("/site.json")[0] != 200:
+        time.sleep(0.2)
+    first_s = server.tiles_s, server.tiles_s + time.monotonic() - begin
+    fleet = made_trips(macadam, store, json.loads(server.get("/tiles.json")[1])["bounds"], work)
+    trips = sorted((fleet / "trips").iterdir())
+    tiles_s, page_s, cpu_s = new_version_s(server, macadam, growing, fleet, trips[0])
+    rows = [["all tiles; and the page, after the start", f"{first_s[0]:.1f} s; {first_s[1]:.1f} s"],
+            ["tiles, and the page, of a new version after one trip", f"{tiles_s:.1f} s; {page_s:.1f} s; {cpu_s:.1f} s of CPU"]]
+    for name, paths, some in (("1,000 features", items, trips[1:7]), ("vector tiles", vector, trips[7:])):
+        alone, busy, during, ran_through = reads_during_import(server, load, paths, folder, macadam, growing, fleet, some)
+        rows.append([f"{name}, one client: p99 alone; beside a process that computes; while trips are imported",
+                     f"{alone:.1f} ms; {busy:.1f} ms; {during:.1f} ms" + ("" if ran_through else " (the import ended before)")])
+    server.close()
+    return "\n\nWhile the database grows:\n\n" + table(["what", "measured"], rows)
+
+
+def soaked(server, paths, folder, minutes, table):
+    first, last = soak(server, load, paths, folder, minutes)
+    grown = [f"{100 * (after / before - 1):+.1f} %" for before, after in zip(first, last)]
+    return f"\n\n{minutes:.0f} minutes at half load, from the first tenth to the end:\n\n" + \
+        table(["what", "first", "last", "grown"], [["memory, MB", f"{first[0]:.0f}", f"{last[0]:.0f}", grown[0]],
+                                                   ["open descriptors", f"{first[1]}", f"{last[1]}", grown[1]]])
+
+
+def serve_report(macadam, store, work, table, soak_minutes=0):
     """Text of the section; `store` has a million segments."""
     work.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir="/tmp") as temporary:
@@ -201,7 +236,9 @@ def serve_report(macadam, store, work, table):
                 ["picture tile, drawn before", f"{picture_rate:,.0f}", f"{picture_ms:.1f}", f"{picture_cpu:,.0f}", "", "", ""],
                 ["1,000 features, one client", f"{one_rate:,.0f}", f"{one_ms:.1f}", f"{one_cpu:,.0f}", "", "", ""],
                 ["1,000 features, four clients", f"{four_rate:,.0f}", f"{four_ms:.1f}", "", "", "", ""]]
+        long = soaked(server, vector + items + picture, folder, soak_minutes, table) if soak_minutes else ""
         server.close()
+        grown = growth(macadam, store, work, folder, items, vector, table)
         geojson = work / "roads.geojson"
         subprocess.run([macadam, "export", store, "-o", geojson, "--quiet"], check=True)
         database = folder / "postgis"
@@ -216,4 +253,4 @@ def serve_report(macadam, store, work, table):
     return f"A store of {store.stat().st_size / 1e6:,.0f} MB; its tiles were ready {server.tiles_s:.0f} s after the start. Loads by wrk of 8 connections " + \
         f"unless said, {SECONDS} s each, on the same machine; tiles of zoom {ZOOM} of some 1,000 segments, gzipped. With {SLOW_CLIENTS} clients that send a " + \
         f"head byte by byte, `/health` answers within {health_ms:.0f} ms (99 of 100).\n\n" + \
-        table(["what", "a second", "p99, ms", "a second of its CPU", "peer", "its, a second", "times as fast"], rows)
+        table(["what", "a second", "p99, ms", "a second of its CPU", "peer", "its, a second", "times as fast"], rows) + grown + long

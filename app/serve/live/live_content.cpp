@@ -17,6 +17,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// When a version was made, and how long it took.
+struct Made {
+    Clock::time_point end{};
+    Clock::duration took{};
+};
+
 /// Name in the system's folder for temporary files: the database's folder may be read-only.
 std::filesystem::path beside() {
     return std::filesystem::temp_directory_path() / "macadam-serve";
@@ -54,16 +60,25 @@ std::shared_ptr<const TemporaryFolder> LiveContent::page() const {
 
 void LiveContent::work(const std::stop_token& stop) {
     std::string made;
+    Made whole, update; // the last of each kind
     while (true) {
         std::unique_lock lock{mutex_};
         if (!asked_.wait(lock, stop, [&] { return wanted_ != made; }) || stop.stop_requested()) {
+            return;
+        }
+        lock.unlock();
+        auto& last = is_update(stop) ? update : whole;
+        lock.lock();
+        constexpr int rests = 9; // times as long as it worked
+        asked_.wait_until(lock, stop, last.end + rests * last.took, [&] { return was_dropped_; });
+        if (stop.stop_requested()) {
             return;
         }
         made = wanted_;
         was_dropped_ = false;
         lock.unlock();
         const auto begin = Clock::now();
-        Clock::duration rest{};
+        Clock::duration least{};
         try {
             make(made, stop);
         } catch (const std::exception& error) {
@@ -71,12 +86,20 @@ void LiveContent::work(const std::stop_token& stop) {
                 console_.warn(fmt::format("the tiles could not be made: {}", error.what()));
             }
             made.clear(); // once more, though nothing changes: the disk may have been full
-            rest = std::chrono::minutes{1};
+            least = std::chrono::seconds{60} / rests;
         }
-        constexpr int rests = 9; // times as long as it worked
-        lock.lock();
-        rest = std::max(rest, rests * (Clock::now() - begin));
-        asked_.wait_for(lock, stop, rest, [&] { return was_dropped_; });
+        last.end = Clock::now();
+        last.took = std::max(last.end - begin, least);
+    }
+}
+
+/// Tests whether the next version will be made from the one before.
+bool LiveContent::is_update(const std::stop_token& stop) const {
+    try {
+        return file_number(file_) == file_number_ &&
+               tile_maker_.can_update(StoreReader::open(file_, {.stop = stop}, audience_));
+    } catch (const InputError&) { // it is told when the version is made
+        return false;
     }
 }
 

@@ -32,9 +32,9 @@ public:
     LiveContent(const LiveContent&) = delete;
     LiveContent& operator=(const LiveContent&) = delete;
 
-    /// Asks for the content of a version. While trips arrive all the time, a version is made at
-    /// most for a tenth of the time. What was made of all trips is shown no longer once only
-    /// publications may be.
+    /// Asks for the content of a version. While trips arrive all the time, versions are made at
+    /// most for a tenth of the time, and so are those of which all is made. What was made of all
+    /// trips is shown no longer once only publications may be.
     void refresh(const std::string& version, bool published_alone);
 
     /// Latest tiles; null until there are some.
@@ -45,6 +45,7 @@ public:
 
 private:
     void work(const std::stop_token& stop);
+    bool is_update(const std::stop_token& stop) const;
     void make(const std::string& version, const std::stop_token& stop);
     void
     make_page(const StoreReader& store, const std::string& version, const std::stop_token& stop);

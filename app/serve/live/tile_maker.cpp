@@ -39,7 +39,7 @@ TileMaker::make(const StoreReader& store, const std::string& version, const Prog
     compact();
     return std::make_shared<const TileSet>(version,
                                            layers_json(tile_layers(store, plan)),
-                                           made_->source.box,
+                                           tile_bounds(store, made_->source.box),
                                            made_->file,
                                            made_->places);
 }

@@ -31,6 +31,11 @@ public:
     std::shared_ptr<const TileSet>
     make(const StoreReader& store, const std::string& version, const Progress& progress);
 
+    /// Tests whether only trips have come since the last call.
+    bool can_update(const StoreReader& store) const {
+        return made_ && store.changed_since(made_->moment);
+    }
+
     /// Has the next call make all tiles.
     void forget() { made_.reset(); }
 

@@ -18,7 +18,7 @@ class TileSet {
 public:
     using Places = std::map<TileId, ByteRange>;
 
-    /// \param box     around all segments with a value
+    /// \param box     in which there are tiles
     /// \param file    may hold tiles of other versions, too
     TileSet(std::string version,
             std::string layers,
@@ -34,7 +34,7 @@ public:
     /// Layers of the tiles, as TileJSON describes them.
     const std::string& layers() const { return layers_; }
 
-    /// Box around all segments with a value, of the world if there are none.
+    /// Box in which there are tiles, of the world if there are none.
     const GeoBox& box() const { return box_; }
     std::size_t count() const { return places_.size(); }
 

@@ -46,7 +46,7 @@ std::vector<std::int64_t> twice_areas(protozero::pbf_reader feature) {
                     path.clear();
                     areas.push_back(0);
                 }
-                EXPECT_TRUE(x >= 0 && x <= 4096 && y >= 0 && y <= 4096) << x << ' ' << y;
+                EXPECT_TRUE(x >= -64 && x <= 4160 && y >= -64 && y <= 4160) << x << ' ' << y;
                 path.emplace_back(x, y);
             }
         }
@@ -98,13 +98,24 @@ TEST(MvtBackground, HasALayerForEachGroupOfKindsWithRingsAsTheSpecificationTurns
                             Pair("water", ElementsAre(whole_tile, -whole_tile / 4))));
 }
 
-TEST(MvtBackground, OfALargerZoomIsTheQuarterOfItsTile) {
+TEST(MvtBackground, OfALargerZoomIsTheQuarterOfItsTileWithABuffer) {
     const std::vector tiles{lake(middle)};
     const TileId quarter{15, 2 * middle.x + 1, 2 * middle.y};
     const auto layers = layers_in(background_layers_of(quarter, tiles, {}));
-    EXPECT_THAT(layers.at("water"), ElementsAre(whole_tile - whole_tile / 4)); // around the island
-    const TileId within{16, 4 * middle.x + 1, 4 * middle.y + 1};               // in the island
+    constexpr std::int64_t side = 4096 + 64, of_island = 2048 + 64;
+    EXPECT_THAT(layers.at("water"),
+                ElementsAre(2 * (side * side - of_island * of_island))); // around the island
+    const TileId within{17, 8 * middle.x + 3, 8 * middle.y + 3};         // in the island
     EXPECT_FALSE(layers_in(background_layers_of(within, tiles, {})).contains("water"));
+}
+
+TEST(MvtBackground, GoesOnOverTheTilesEdgesAsFarAsItsBuffer) {
+    const TileId east{14, middle.x + 1, middle.y}, far{14, middle.x + 2, middle.y};
+    const std::vector tiles{lake(middle), lake(east), lake(far)};
+    const auto layers = layers_in(background_layers_of(middle, tiles, {}));
+    EXPECT_THAT(layers.at("water"),
+                ElementsAre(whole_tile, -whole_tile / 4, std::int64_t{2} * 64 * 4096));
+    EXPECT_THAT(layers.at("railways"), SizeIs(2));
 }
 
 TEST(MvtBackground, OfASmallerZoomJoinsTheTilesInIt) {

@@ -1,0 +1,155 @@
+// Files of a site's segments, made again after trips: the same as if all were made anew.
+
+#include "app/export/site_segments.hpp"
+
+#include "storage/store/road_store.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/store_world.hpp"
+#include "support/roads/town.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator{folder}) {
+        if (entry.is_regular_file()) {
+            std::ifstream in{entry.path(), std::ios::binary};
+            files[fs::relative(entry.path(), folder)] = {std::istreambuf_iterator<char>{in}, {}};
+        }
+    }
+    return files;
+}
+
+/// Files with two names: those that two sites share.
+std::size_t shared_files(const fs::path& folder) {
+    const auto files = fs::recursive_directory_iterator{folder};
+    return static_cast<std::size_t>(std::ranges::count_if(files, [](const auto& entry) {
+        return entry.is_regular_file() && entry.hard_link_count() > 1;
+    }));
+}
+
+std::vector<SegmentRecord> measured(const StoreReader& store) {
+    std::vector<SegmentRecord> records;
+    store.visit({}, [&](const SegmentRecord& record) { records.push_back(record); });
+    return records;
+}
+
+std::vector<SegmentKey> keys_of(const RoadNetwork& roads) {
+    std::vector<SegmentKey> keys;
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
+        for (const bool forward : {true, false}) {
+            if (const auto edge = edge_of(LinkId{i}, forward); is_drivable(roads, edge)) {
+                for (const auto& segment : segments_of(roads, edge)) {
+                    keys.push_back(segment.key);
+                }
+            }
+        }
+    }
+    return keys;
+}
+
+/// Passes of a trip over some neighbouring segments, or all.
+std::vector<Pass> drive(const std::vector<SegmentKey>& keys, int number) {
+    auto pass = passes_of(number).front();
+    const auto from = number == 0 ? 0 : static_cast<std::size_t>(number) * 997 % (keys.size() - 60);
+    const auto past = number == 0 ? keys.size() : from + 60;
+    std::vector<Pass> passes;
+    for (auto i = from; i < past; ++i) {
+        if (number == 0 && i % 9 == 8) { // not yet driven
+            continue;
+        }
+        pass.segment = keys[i];
+        pass.iri_um = static_cast<IriUm>(900 + 37 * i % 2000);
+        passes.push_back(pass);
+    }
+    return passes;
+}
+
+TEST(SiteSegments, AreTheSameFilesWithAnEarlierSiteAndWithout) {
+    const auto roads = made_up_town(14);
+    const auto keys = keys_of(roads);
+    ASSERT_GT(keys.size(), 2000U);
+    auto store = RoadStore::create(test_folder() / "a.gpkg", roads, {});
+    const auto write = [&](const std::string& name,
+                           const std::vector<std::string>& months,
+                           const EarlierSite* earlier) {
+        const auto folder = test_folder() / name;
+        const auto records = measured(store);
+        return write_segments(store, {}, records, months, {folder, folder}, earlier, {});
+    };
+    const auto import_drive = [&](int number) {
+        auto trip = trip_record(number);
+        trip.t0_utc_ms = 1'767'225'600'000 + 86'400'000LL * number; // January 2026 and on
+        ASSERT_TRUE(add_trip(store, trip, drive(keys, number)));
+        store.importer.refresh();
+    };
+    import_drive(0);
+    std::vector<std::string> months{"2026-01"};
+    EarlierSite earlier{test_folder() / "0", write("0", months, nullptr), {}};
+    ASSERT_GT(earlier.segments.shards.size(), 5U);
+    for (int number = 1; number <= 4; ++number) {
+        const auto moment = store.moment();
+        import_drive(number * 12);
+        if (number == 3) {
+            months.emplace_back("2026-02");
+        }
+        earlier.changed = store.changed_since(moment).value();
+        ASSERT_FALSE(earlier.changed.empty());
+        const auto name = std::to_string(number), anew = name + " anew";
+        auto made = write(name, months, &earlier);
+        write(anew, months, nullptr);
+        const auto files = files_of(test_folder() / name);
+        EXPECT_TRUE(files == files_of(test_folder() / anew)) << number;
+        EXPECT_GT(shared_files(test_folder() / name), files.size() / 3) << number;
+        EXPECT_EQ(shared_files(test_folder() / anew), 0U);
+        earlier = {test_folder() / name, std::move(made), {}};
+    }
+}
+
+TEST(SiteSegments, AreCutAtPlacesThatAnotherSegmentHardlyMoves) {
+    std::vector<SegmentRecord> records;
+    for (std::int64_t way = 1; way <= 400; ++way) {
+        for (std::uint32_t i = 0; i < 50; ++i) {
+            auto& record = records.emplace_back();
+            record.segment.key = {1000 + 7 * way, true, i};
+        }
+    }
+    const auto starts_of = [](const std::vector<SiteShard>& shards) {
+        std::vector<SegmentKey> starts;
+        for (const auto& shard : shards) {
+            starts.push_back(shard.first);
+        }
+        return starts;
+    };
+    const auto before = shards_of(records);
+    std::size_t count = 0;
+    for (const auto& shard : before) {
+        EXPECT_LE(shard.count, 512U);
+        count += shard.count;
+    }
+    EXPECT_EQ(count, records.size());
+    EXPECT_GT(before.size(), records.size() / 400);
+    records.erase(records.begin() + 7777);
+    const auto starts = starts_of(before), starts_after = starts_of(shards_of(records));
+    std::vector<SegmentKey> moved;
+    std::ranges::set_symmetric_difference(starts, starts_after, std::back_inserter(moved));
+    EXPECT_LE(moved.size(), 12U);
+}
+
+} // namespace
+} // namespace macadam::testing
