@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -29,6 +30,19 @@ constexpr std::array<PlaceLook, place_ranks> place_looks{PlaceLook{18, true, 6},
 double denominator_of(const WorldScale& scale) {
     constexpr double of_zoom_0 = 559082264.0287178;
     return of_zoom_0 / std::exp2(zoom_of_256_px(scale));
+}
+
+/// Rounds heights to those that a CoverageMask counts exactly. Shapes to the left of a tile, which
+/// other tiles have and this one has not, then leave no rounding error on it.
+void lay_on_rows(std::vector<BackgroundShape>& shapes) {
+    constexpr double per_px = 65536;
+    for (auto& shape : shapes) {
+        for (auto& ring : shape.rings) {
+            for (auto& point : ring) {
+                point.y = std::round(point.y * per_px) / per_px;
+            }
+        }
+    }
 }
 
 } // namespace
@@ -54,6 +68,7 @@ PaintPart tile_ground(std::span<const BackgroundTile> tiles,
                                      top_px + side_px + background_reach_px},
                                     {.unit = 1, .denominator = denominator_of(window.scale)},
                                     middle.lon_deg);
+    lay_on_rows(shapes);
     return painted_background(std::move(shapes), theme, ground_rgb);
 }
 

@@ -81,16 +81,17 @@ std::vector<Pass> drive(const std::vector<SegmentKey>& keys, int number) {
 }
 
 TEST(SiteSegments, AreTheSameFilesWithAnEarlierSiteAndWithout) {
+    const auto folder = test_folder();
     const auto roads = made_up_town(14);
     const auto keys = keys_of(roads);
     ASSERT_GT(keys.size(), 2000U);
-    auto store = RoadStore::create(test_folder() / "a.gpkg", roads, {});
+    auto store = RoadStore::create(folder / "a.gpkg", roads, {});
     const auto write = [&](const std::string& name,
                            const std::vector<std::string>& months,
                            const EarlierSite* earlier) {
-        const auto folder = test_folder() / name;
+        const auto place = folder / name;
         const auto records = measured(store);
-        return write_segments(store, {}, records, months, {folder, folder}, earlier, {});
+        return write_segments(store, {}, records, months, {place, place}, earlier, {});
     };
     const auto import_drive = [&](int number) {
         auto trip = trip_record(number);
@@ -100,7 +101,7 @@ TEST(SiteSegments, AreTheSameFilesWithAnEarlierSiteAndWithout) {
     };
     import_drive(0);
     std::vector<std::string> months{"2026-01"};
-    EarlierSite earlier{test_folder() / "0", write("0", months, nullptr), {}};
+    EarlierSite earlier{folder / "0", write("0", months, nullptr), {}};
     ASSERT_GT(earlier.segments.shards.size(), 5U);
     for (int number = 1; number <= 4; ++number) {
         const auto moment = store.moment();
@@ -113,11 +114,11 @@ TEST(SiteSegments, AreTheSameFilesWithAnEarlierSiteAndWithout) {
         const auto name = std::to_string(number), anew = name + " anew";
         auto made = write(name, months, &earlier);
         write(anew, months, nullptr);
-        const auto files = files_of(test_folder() / name);
-        EXPECT_TRUE(files == files_of(test_folder() / anew)) << number;
-        EXPECT_GT(shared_files(test_folder() / name), files.size() / 3) << number;
-        EXPECT_EQ(shared_files(test_folder() / anew), 0U);
-        earlier = {test_folder() / name, std::move(made), {}};
+        const auto files = files_of(folder / name);
+        EXPECT_TRUE(files == files_of(folder / anew)) << number;
+        EXPECT_GT(shared_files(folder / name), files.size() / 3) << number;
+        EXPECT_EQ(shared_files(folder / anew), 0U);
+        earlier = {folder / name, std::move(made), {}};
     }
 }
 
