@@ -13,16 +13,16 @@ namespace {
 struct PictureSizes {
     int map_width_px;
     double map_px_per_inch; ///< as the page shows it: so large are its letters
+    double max_map_shape;   ///< height / width
     int stretch_width_px;
     double stretch_px_per_inch; ///< likewise
     double stretch_shape;       ///< height / width
 };
 // A screen has 96 px per inch and shows maps at half their size, sections at two thirds; sheets of
-// A4 have two by two sections.
-constexpr PictureSizes on_screen{1400, 192, 480, 144, 0.75};
-constexpr PictureSizes on_paper{2100, 300, 1040, 300, 0.6};
+// A4 have a map over their whole width, and sections over half of it.
+constexpr PictureSizes on_screen{1400, 192, 0.893, 480, 144, 0.75};
+constexpr PictureSizes on_paper{2125, 300, 0.65, 1010, 300, 0.54};
 constexpr double min_map_shape = 0.625; // height / width
-constexpr double max_map_shape = 0.893;
 
 constexpr double min_margin_m = 60;   // around a section: the next side streets
 constexpr double margin_share = 0.25; // share of its extent
@@ -37,9 +37,9 @@ PictureSize map_size(const GeoBox& box, PictureUse use) {
     const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
     const double height_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
-    const double shape =
-        std::clamp(height_m / std::max(width_m, 1.0), min_map_shape, max_map_shape);
     const auto& sizes = sizes_for(use);
+    const double shape =
+        std::clamp(height_m / std::max(width_m, 1.0), min_map_shape, sizes.max_map_shape);
     return {.width_px = sizes.map_width_px,
             .height_px = static_cast<int>(sizes.map_width_px * shape),
             .px_per_inch = sizes.map_px_per_inch};
@@ -135,7 +135,7 @@ MapScene whole_scene(const StoreReader& store,
     // A picture of maximum height shows at least as much as lower ones of the same box.
     const auto& sizes = sizes_for(use);
     const PictureSize size{.width_px = sizes.map_width_px,
-                           .height_px = static_cast<int>(sizes.map_width_px * max_map_shape),
+                           .height_px = static_cast<int>(sizes.map_width_px * sizes.max_map_shape),
                            .px_per_inch = sizes.map_px_per_inch};
     auto plan = load_map(store, {.filter = filter, .style = unadorned(style), .size = size});
     auto scene = std::move(plan).scene();

@@ -241,16 +241,22 @@ std::string block_html(const Table& table) {
 
 std::string block_html(const Drawing& drawing) {
     constexpr double widest_of_columns = 500; // wider drawings take the page's width
+    const bool is_wide = drawing.width > widest_of_columns;
     auto svg = fmt::format("<svg class=\"{}\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
                            "font-size=\"12\" aria-label=\"{}\">\n",
-                           drawing.width > widest_of_columns ? "strip" : "histogram",
+                           is_wide ? "strip" : "histogram",
                            drawing.width,
                            drawing.height,
                            escaped(drawing.words));
     for (const auto& shape : drawing.shapes) {
         svg += std::visit([](const auto& of) { return svg_of(of); }, shape);
     }
-    return svg + "</svg>\n";
+    svg += "</svg>\n";
+    return is_wide ? fmt::format("<div class=\"wide\" role=\"region\" aria-label=\"{}\" "
+                                 "tabindex=\"0\">{}</div>\n",
+                                 escaped(drawing.words),
+                                 svg)
+                   : svg;
 }
 
 std::string block_html(const Legend& legend) {

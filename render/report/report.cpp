@@ -24,14 +24,12 @@ Document report_document(const Report& report) {
                       .overview = overview_of(report),
                       .words = page_words(say, true)};
     const bool measured = report.summary.all.covered_m > 0;
-    if (measured) {
-        document.sections.push_back(condition_section(report));
-    }
-    if (measured) {
-        document.sections.push_back(worst_section(report));
-    }
     if (!report.strips.empty()) {
         document.sections.push_back(strip_section(report));
+    }
+    if (measured) {
+        document.sections.push_back(condition_section(report));
+        document.sections.push_back(worst_section(report));
     }
     if (!report.events.empty()) {
         document.sections.push_back(events_section(report));

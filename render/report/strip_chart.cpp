@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
+#include <utility>
 
 namespace macadam {
 
@@ -180,45 +183,72 @@ strip_drawing(const Report& report, const Strip& strip, StripSize size, const st
     return drawing;
 }
 
-DocumentSection strip_section(const Report& report) {
+namespace {
+
+constexpr std::size_t directions = 2;
+
+/// Segments of both directions by their place along the chainage.
+using PiecesByPlace =
+    std::map<std::pair<double, double>, std::array<const StripPiece*, directions>>;
+
+/// Builds a table of all segments, both directions side by side; no rows where none is measured.
+Table table_of(const Report& report) {
     const auto& say = report.wording;
-    DocumentSection section{
-        say("strip"), {Paragraph{say("strip.about", {{"unit", std::string{say.iri_unit()}}})}}};
     Table table{say("strip.caption", {{"unit", std::string{say.iri_unit()}}}),
-                {{say("column.from_m"), true},
-                 {say("column.to_m"), true},
-                 {say("column.towards")},
-                 {"IRI", true},
-                 {say("column.interval"), true},
-                 {say("column.class")}},
+                {{say("column.from_m"), true}, {say("column.to_m"), true}},
                 {}};
+    std::size_t shown = 0;
+    PiecesByPlace places;
     for (const auto& strip : report.strips) {
-        section.blocks.emplace_back(strip_drawing(report,
-                                                  strip,
-                                                  strip_on_page,
-                                                  say("strip.words",
-                                                      {{"road",
-                                                        fmt::format("{}–{} {}",
-                                                                    say.short_length(strip.from_m),
-                                                                    say.short_length(strip.to_m),
-                                                                    say("unit.short"))}})));
-        for (const auto& row : strip.rows) {
-            for (const auto& piece : row.pieces) {
-                table.rows.push_back({say.short_length(piece.from_m),
-                                      say.short_length(piece.to_m),
-                                      row.title,
-                                      say.iri(piece.iri),
-                                      say.interval(piece.low, piece.high),
-                                      class_name(report, piece.iri_class)});
+        shown = std::max(shown, std::min(strip.rows.size(), directions));
+        for (std::size_t row = 0; row < std::min(strip.rows.size(), directions); ++row) {
+            for (const auto& piece : strip.rows[row].pieces) {
+                places[{piece.from_m, piece.to_m}][row] = &piece;
             }
         }
     }
-    if (table.rows.empty()) {
-        section.blocks.clear();
-        section.blocks.emplace_back(Paragraph{say("strip.none")});
-    } else {
-        section.blocks.emplace_back(std::move(table));
+    for (std::size_t row = 0; row < shown; ++row) {
+        const auto title = report.strips.front().rows.size() > row && shown > 1
+                               ? report.strips.front().rows[row].title + ": "
+                               : std::string{};
+        table.columns.push_back({title + "IRI", true});
+        table.columns.push_back({say("column.interval"), true});
+        table.columns.push_back({say("column.class")});
     }
+    for (const auto& [place, pieces] : places) {
+        std::vector<Cell> cells{say.short_length(place.first), say.short_length(place.second)};
+        for (std::size_t row = 0; row < shown; ++row) {
+            const auto* const piece = pieces[row];
+            cells.emplace_back(piece != nullptr ? say.iri(piece->iri) : "–");
+            cells.emplace_back(piece != nullptr ? say.interval(piece->low, piece->high) : "");
+            cells.emplace_back(piece != nullptr ? class_name(report, piece->iri_class) : "");
+        }
+        table.rows.push_back(std::move(cells));
+    }
+    return table;
+}
+
+} // namespace
+
+DocumentSection strip_section(const Report& report) {
+    const auto& say = report.wording;
+    DocumentSection section{say("strip"), {}};
+    auto table = table_of(report);
+    if (table.rows.empty()) {
+        section.blocks.emplace_back(Paragraph{say("strip.none")});
+        return section;
+    }
+    section.blocks.emplace_back(
+        Paragraph{say("strip.about", {{"unit", std::string{say.iri_unit()}}})});
+    for (const auto& strip : report.strips) {
+        const auto road = fmt::format("{}–{} {}",
+                                      say.short_length(strip.from_m),
+                                      say.short_length(strip.to_m),
+                                      say("unit.short"));
+        section.blocks.emplace_back(
+            strip_drawing(report, strip, strip_on_page, say("strip.words", {{"road", road}})));
+    }
+    section.blocks.emplace_back(std::move(table));
     return section;
 }
 

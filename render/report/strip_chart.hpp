@@ -11,7 +11,7 @@ struct StripSize {
     double row_height; ///< of one direction
 };
 inline constexpr StripSize strip_on_card{400, 110};
-inline constexpr StripSize strip_on_page{960, 130};
+inline constexpr StripSize strip_on_page{840, 130};
 
 /// Draws roughness by chainage: a column in the colour of its class for each piece, its 90 %
 /// interval as a translucent band, the border of poor as a dashed line, junctions above, control

@@ -47,10 +47,9 @@ Table table_of(const Report& report) {
 
 /// Adds links to the midpoint for readers' own maps: nothing is loaded unless they follow one.
 void add_links(Card& card, const Report& report, const WorstSection& stretch) {
-    const auto place = fmt::format("{:.5f},{:.5f}", stretch.middle.lat_deg, stretch.middle.lon_deg);
-    Span geo{"geo:" + place};
-    geo.address = "geo:" + place;
-    card.text.spans.push_back({"\n"});
+    Span geo{report.wording("stretch.app")};
+    geo.address = fmt::format("geo:{:.5f},{:.5f}", stretch.middle.lat_deg, stretch.middle.lon_deg);
+    card.text.spans.push_back({" · "});
     card.text.spans.push_back(std::move(geo));
     if (report.attribution.find("OpenStreetMap") != std::string::npos) {
         Span osm{"OpenStreetMap"};
@@ -100,15 +99,14 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
                         {"passes", passes},
                         {"cars", say.counted("cars", static_cast<std::size_t>(stretch.vehicles))}}),
                    SpanLook::phone},
-                  {"\n" +
-                   say("stretch.place",
-                       {{"reference", reference_text(report, stretch)},
-                        {"lat", fmt::format("{:.5f}", stretch.middle.lat_deg)},
-                        {"lon", fmt::format("{:.5f}", stretch.middle.lon_deg)}}) +
-                   "\n" +
-                   (period.empty() ? say("stretch.undated")
-                                   : say("stretch.driven", {{"period", period}}))}}};
+                  {"\n" + say("stretch.place",
+                              {{"reference", reference_text(report, stretch)},
+                               {"lat", fmt::format("{:.5f}", stretch.middle.lat_deg)},
+                               {"lon", fmt::format("{:.5f}", stretch.middle.lon_deg)}})}}};
     add_links(card, report, stretch);
+    card.text.spans.push_back(
+        {"\n" +
+         (period.empty() ? say("stretch.undated") : say("stretch.driven", {{"period", period}}))});
     if (!of.strip.empty()) {
         Strip strip{0,
                     of.strip.back().to_m,

@@ -151,6 +151,7 @@ void draw(GlRoadPainter& gl_painter,
         append_stroke(quads, *road->polyline, pass);
         if (quads.size() >= enough) {
             flush();
+            gl_painter.painter.finish(); // or OpenGL keeps up to 70 MB of quads for later
         }
     }
     flush();

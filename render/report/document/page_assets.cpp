@@ -88,7 +88,7 @@ nav a:hover,nav a[aria-current]{color:var(--ink);text-decoration:underline}
 details,.cards figure{scroll-margin-top:3.2rem}
 .overview{display:grid;gap:1.5rem;align-items:center}
 .overview>*{min-width:0}
-.strip{display:block;width:100%;height:auto;margin:1rem 0}
+.strip{display:block;width:100%;height:auto}
 .strip text,.cards .histogram text{fill:var(--quiet)}
 .cards .histogram{margin:.35rem 0 0}
 .band{fill:var(--ink);opacity:.22}
@@ -99,6 +99,8 @@ th[aria-sort=ascending] button::after{content:" \25B2"}
 th[aria-sort=descending] button::after{content:" \25BC"}
 .save{font:inherit;font-size:.8125rem;color:var(--quiet);background:none;border:1px solid var(--rule);border-radius:.3rem;padding:.2rem .6rem;margin:-.4rem 0 1rem;cursor:pointer}
 .save:hover{color:var(--ink);border-color:var(--quiet)}
+@media screen and (min-width:34.01rem) and (max-width:54rem){.key{grid-template-columns:repeat(6,1fr)}
+.key div{grid-column:span 2}.key div:nth-last-child(-n+2){grid-column:span 3}}
 @media screen and (min-width:58rem){.overview{grid-template-columns:minmax(0,3fr) minmax(0,2fr)}}
 @media screen and (min-width:82rem){body{max-width:80rem;padding-left:15rem;position:relative}
 nav{position:fixed;top:0;bottom:0;width:12.5rem;margin-left:-14rem;overflow-y:auto;border:0;padding-top:1.6rem}
@@ -106,9 +108,9 @@ nav ol{display:block}nav li{white-space:normal;padding:.3rem 0}}
 )";
 
 constexpr const char* on_a_phone = R"(
-@media screen and (max-width:44rem){.else{display:none}.phone{display:inline}}
+@media screen and (max-width:44rem){.else{display:none}.phone{display:inline}.strip{min-width:42rem}}
 @media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
-.key{grid-template-columns:1fr 1fr;gap:.5rem}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
+.key{grid-template-columns:1fr 1fr;gap:.5rem}.key div:last-child:nth-child(odd){grid-column:1/-1}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
 @media screen and (max-width:24rem){th,td{padding:.35rem .2rem}}
 )";
 

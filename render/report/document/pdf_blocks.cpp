@@ -12,9 +12,9 @@ namespace {
 
 constexpr double bullet_indent_pt = 10;
 constexpr std::size_t keys_in_a_row = 5;
-constexpr std::size_t cards_in_a_row = 2; // with charts whose letters can be read
 constexpr double card_gap_pt = 12;
-constexpr int photos_in_a_row = 3;
+constexpr double card_picture_share = 0.49; // of the width; the text is beside
+constexpr int photos_in_a_row = 4;
 constexpr double photo_gap_pt = 5;
 constexpr double key_padding_pt = 7;
 constexpr double legend_gap_pt = 14;
@@ -44,13 +44,16 @@ struct Key {
     }
 };
 
-struct CardText {
+/// Layout of a card: a picture, beside it text and chart, and photos below.
+struct CardLayout {
     PdfText title, text;
+    double picture_width_pt, text_width_pt;
     double picture_pt, chart_pt, photos_pt; ///< heights
 
-    double height_pt() const {
-        return picture_pt + chart_pt + 4 + title.height_pt() + text.height_pt() + photos_pt;
+    double top_pt() const {
+        return std::max(picture_pt, title.height_pt() + text.height_pt() + chart_pt);
     }
+    double height_pt() const { return top_pt() + photos_pt; }
 };
 
 /// Photos of a card in a row, with captions below.
@@ -125,6 +128,20 @@ MapLayout lay_out(const PdfSheets& sheets, const MapFigure& map, double max_widt
     return layout;
 }
 
+/// Returns the height below which a map goes to the next page rather than become smaller: a page
+/// that it leaves is hardly a third empty.
+double least_pt(const MapLayout& layout) {
+    constexpr double min_map_pt = 140;
+    return layout.whole_pt() - layout.height_pt + std::min(layout.height_pt, min_map_pt);
+}
+
+void shrink(MapLayout& layout, double max_height_pt) {
+    if (layout.height_pt > max_height_pt) {
+        layout.width_pt *= max_height_pt / layout.height_pt;
+        layout.height_pt = max_height_pt;
+    }
+}
+
 void put_map(PdfSheets& sheets, const MapFigure& map, const MapLayout& layout) {
     const auto& [caption, scale, width_pt, height_pt] = layout;
     {
@@ -154,7 +171,7 @@ double first_pt(const PdfSheets& sheets, const Paragraph& paragraph) {
 }
 
 double first_pt(const PdfSheets& sheets, const MapFigure& map) {
-    return lay_out(sheets, map, sheets.width_pt()).whole_pt();
+    return least_pt(lay_out(sheets, map, sheets.width_pt()));
 }
 
 void put(PdfSheets& sheets, const Paragraph& paragraph) {
@@ -246,8 +263,9 @@ void put(PdfSheets& sheets, const Legend& legend) {
 }
 
 void put(PdfSheets& sheets, const MapFigure& map) {
-    const auto layout = lay_out(sheets, map, sheets.width_pt());
-    sheets.need(layout.whole_pt());
+    auto layout = lay_out(sheets, map, sheets.width_pt());
+    sheets.need(least_pt(layout));
+    shrink(layout, sheets.room_pt() - (layout.whole_pt() - layout.height_pt));
     put_map(sheets, map, layout);
 }
 
@@ -264,11 +282,7 @@ void put(PdfSheets& sheets, const Overview& overview) {
     const double below_pt =
         layout.whole_pt() - layout.height_pt + chart_height_pt + 2 * block_gap_pt;
     sheets.need(std::min(layout.height_pt, min_map_pt) + below_pt);
-    const double room_pt = sheets.room_pt() - below_pt;
-    if (layout.height_pt > room_pt) {
-        layout.width_pt *= room_pt / layout.height_pt;
-        layout.height_pt = room_pt;
-    }
+    shrink(layout, sheets.room_pt() - below_pt);
     put_map(sheets, overview.map, layout);
     draw_at(sheets, chart, sheets.left_pt(), sheets.y_pt(), sheets.width_pt());
     sheets.skip(chart_height_pt + block_gap_pt);
@@ -276,60 +290,53 @@ void put(PdfSheets& sheets, const Overview& overview) {
 
 namespace {
 
-void put_card(
-    PdfSheets& sheets, const Card& card, const CardText& of, double x_pt, double width_pt) {
-    double y_pt = sheets.y_pt() + of.picture_pt + of.chart_pt + 4;
+CardLayout lay_out(const PdfSheets& sheets, const Card& card) {
+    const double picture_width_pt = card_picture_share * (sheets.width_pt() - card_gap_pt);
+    const double text_width_pt = sheets.width_pt() - card_gap_pt - picture_width_pt;
+    return {sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, text_width_pt),
+            sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, text_width_pt),
+            picture_width_pt,
+            text_width_pt,
+            picture_width_pt * card.picture.height_px / std::max(1, card.picture.width_px),
+            card.chart ? 4 + text_width_pt * card.chart->height / card.chart->width : 0,
+            lay_out(sheets, card.photos, sheets.width_pt()).height_pt};
+}
+
+void put_card(PdfSheets& sheets, const Card& card, const CardLayout& of) {
+    const double x_pt = sheets.left_pt() + of.picture_width_pt + card_gap_pt;
+    double y_pt = sheets.y_pt();
     {
         const PdfElement title{sheets, "H3"};
         sheets.draw(of.title, x_pt, y_pt);
     }
+    y_pt += of.title.height_pt();
     {
         const PdfFigure figure{sheets, card.words};
-        sheets.picture(card.picture, x_pt, sheets.y_pt(), width_pt);
+        sheets.picture(card.picture, sheets.left_pt(), sheets.y_pt(), of.picture_width_pt);
     }
-    if (card.chart) {
-        draw_at(sheets, *card.chart, x_pt, sheets.y_pt() + of.picture_pt + 4, width_pt);
-    }
-    y_pt += of.title.height_pt();
     {
         const PdfElement text{sheets, "P"};
         sheets.draw(of.text, x_pt, y_pt);
     }
+    if (card.chart) {
+        draw_at(sheets, *card.chart, x_pt, y_pt + of.text.height_pt() + 4, of.text_width_pt);
+    }
     put_photos(sheets,
                card.photos,
-               lay_out(sheets, card.photos, width_pt),
-               x_pt,
-               y_pt + of.text.height_pt());
+               lay_out(sheets, card.photos, sheets.width_pt()),
+               sheets.left_pt(),
+               sheets.y_pt() + of.top_pt());
 }
 
 } // namespace
 
 void put(PdfSheets& sheets, const Cards& cards) {
-    const double width_pt = (sheets.width_pt() - card_gap_pt * (cards_in_a_row - 1)) /
-                            static_cast<double>(cards_in_a_row);
-    for (std::size_t i = 0; i < cards.cards.size(); i += cards_in_a_row) {
-        const auto last = std::min(i + cards_in_a_row, cards.cards.size());
-        std::vector<CardText> row;
-        double height_pt = 0;
-        for (auto k = i; k < last; ++k) {
-            const auto& card = cards.cards[k];
-            row.push_back(
-                {sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, width_pt),
-                 sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, width_pt),
-                 width_pt * card.picture.height_px / std::max(1, card.picture.width_px),
-                 card.chart ? 4 + width_pt * card.chart->height / card.chart->width : 0,
-                 lay_out(sheets, card.photos, width_pt).height_pt});
-            height_pt = std::max(height_pt, row.back().height_pt());
-        }
-        sheets.need(std::min(height_pt, sheets.height_pt()));
-        for (auto k = i; k < last; ++k) {
-            const auto& of = row[k - i];
-            const double x_pt =
-                sheets.left_pt() + static_cast<double>(k - i) * (width_pt + card_gap_pt);
-            sheets.place(cards.cards[k].id, sheets.y_pt());
-            put_card(sheets, cards.cards[k], of, x_pt, width_pt);
-        }
-        sheets.skip(height_pt + card_gap_pt);
+    for (const auto& card : cards.cards) {
+        const auto layout = lay_out(sheets, card);
+        sheets.need(std::min(layout.height_pt(), sheets.height_pt()));
+        sheets.place(card.id, sheets.y_pt());
+        put_card(sheets, card, layout);
+        sheets.skip(layout.height_pt() + card_gap_pt);
     }
 }
 

@@ -1,7 +1,7 @@
 """Prints each way in which a PDF is not accessible (PDF/UA-1) or wastes paper: pdf_access.py FILE
 
 Of ISO 14289-1 what a program can tell without knowing the content: title, language, structure,
-reading of figures, tables, headings and links, marked content, embedded fonts. Of paper: pages but
+reading of figures, tables, headings and links, marked content and its order, embedded fonts. Of paper: pages but
 the last that are more than a third empty at their end.
 """
 
@@ -65,11 +65,36 @@ def of_structure(pdf):
         yield f"has {count} elements, {len(cells)} of them tables"
 
 
-def of_page(number, page):
-    depth = 0
+def marked_by(pdf):
+    """Numbers of marked content that the structure refers to, in reading order, by page."""
+    found = {}
+
+    def walk(node, page):
+        if isinstance(node, pikepdf.Array):
+            for kid in node:
+                walk(kid, page)
+        elif isinstance(node, pikepdf.Dictionary):
+            page = node.get("/Pg", page)
+            if "/MCID" in node:
+                walk(int(node.MCID), page)
+            if "/K" in node:
+                walk(node.K, page)
+        elif isinstance(node, int) and page is not None:
+            found.setdefault(page.objgen, []).append(node)
+
+    walk(pdf.Root.StructTreeRoot.K, None)
+    return found
+
+
+def of_page(number, page, read):
+    depth, marked = 0, set()
+    if page.get("/Tabs") != "/S":
+        yield f"page {number} is not tabbed through in the order of its structure"
     for instruction in pikepdf.parse_content_stream(page):
         name = str(instruction.operator)
         depth += {"BDC": 1, "BMC": 1, "EMC": -1}.get(name, 0)
+        if name == "BDC" and "/MCID" in instruction.operands[1]:
+            marked.add(int(instruction.operands[1].MCID))
         if name in PAINTING and depth == 0:
             yield f"page {number} has '{name}' outside of marked content"
             break
@@ -78,6 +103,10 @@ def of_page(number, page):
             break
     if depth != 0:
         yield f"page {number} ends within marked content"
+    if marked != set(read):
+        yield f"page {number} has content that the structure does not read, or reads what is not there"
+    if len(read) != len(set(read)):
+        yield f"page {number} is read twice in parts"
     for link in page.get("/Annots", []):
         if not str(link.get("/Contents", "")) or "/StructParent" not in link:
             yield f"page {number} has a link without a description"
@@ -101,8 +130,9 @@ def empty_share(file, number):
 def main(file):
     with pikepdf.open(file) as pdf:
         breaches = [*of_document(pdf), *of_structure(pdf)]
+        read = marked_by(pdf)
         for number, page in enumerate(pdf.pages, 1):
-            breaches += of_page(number, page)
+            breaches += of_page(number, page, read.get(page.objgen, []))
             if number < len(pdf.pages) and (empty := empty_share(file, number)) > 1 / 3:
                 breaches.append(f"page {number} is {empty:.0%} empty")
     print(*dict.fromkeys(breaches), sep="\n", end="\n" if breaches else "")

@@ -4,6 +4,7 @@
 
 #include "estimator/common/error.hpp"
 #include "render/scene/scene.hpp"
+#include "support/files/sample_photo.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/sample_report.hpp"
 
@@ -11,9 +12,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -32,6 +37,23 @@ ReportPicture grey_picture(int width, int height) {
     return {encode_png(image), {}, width, height};
 }
 
+/// Photos of a section: a wide one and a tall one.
+std::vector<ReportPhoto> photos() {
+    const auto folder = testing::fresh_folder();
+    const auto grey = [](int, int) { return std::array<std::uint8_t, 3>{128, 128, 128}; };
+    std::vector<ReportPhoto> photos;
+    for (const auto& [width_px, height_px] : {std::pair{64, 48}, std::pair{20, 160}}) {
+        const auto bytes = testing::read_file(
+            testing::write_photo(folder / "photo.jpg", width_px, height_px, grey, std::nullopt));
+        photos.push_back({.jpeg = {bytes.begin(), bytes.end()},
+                          .width_px = width_px,
+                          .height_px = height_px,
+                          .day = "2026-03-12",
+                          .distance_m = 7.6});
+    }
+    return photos;
+}
+
 /// A report with everything in it, and pictures that are some.
 Report whole_report() {
     auto report = changed_town();
@@ -45,6 +67,7 @@ Report whole_report() {
     for (auto& stretch : report.worst) {
         stretch.map = grey_picture(48, 36);
     }
+    report.worst[0].photos = photos();
     report.vehicles.assign(60, report.vehicles[0]);
     for (std::size_t i = 0; i < report.vehicles.size(); ++i) {
         report.vehicles[i].name = fmt::format("{}", i + 1);
