@@ -167,8 +167,9 @@ def tried_by_testssl(port, folder):
     for protocol, words in [("SSLv2", "not offered"), ("SSLv3", "not offered"), ("TLS1", "not offered"), ("TLS1_1", "not offered"),
                             ("TLS1_2", "offered"), ("TLS1_3", "offered with final"), ("HSTS_time", "365 days (=31536000 seconds) > 15552000 seconds"),
                             ("cert_chain_of_trust", "passed."), ("heartbleed", "not vulnerable, no heartbeat extension"),
-                            ("cipherlist_OBSOLETED", "not offered"), ("LUCKY13", "not vulnerable")]:
+                            ("cipherlist_AVERAGE", "not offered"), ("cipherlist_STRONG", "offered")]:
         expect(found.get(protocol, {"finding": "nothing"})["finding"], words, f"testssl.sh: {protocol}")
+    expect(found["LUCKY13"]["severity"], "OK", "testssl.sh: LUCKY13")
     worse = {one["id"]: one["finding"] for one in found.values() if one["severity"] in ("MEDIUM", "HIGH", "CRITICAL")}
     worse.pop("cert_revocation", None)
     expect(worse, {}, "testssl.sh")

@@ -2,6 +2,7 @@
 
 #include "storage/files/sha256.hpp"
 #include "storage/sqlite/sqlite.hpp"
+#include "support/files/compressed.hpp"
 #include "support/http/http_client.hpp"
 #include "support/program/piped_program.hpp"
 #include "support/program/program.hpp"
@@ -110,13 +111,17 @@ protected:
                 "--quiet"};
     }
 
-    Answer ask(std::string_view method, std::string_view target, std::string_view body = {}) const {
+    Answer ask(std::string_view method,
+               std::string_view target,
+               std::string_view body = {},
+               std::string_view type = "text/csv") const {
         HttpClient client{port_};
         client.send(fmt::format("{} {} HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {}\r\n"
-                                "Content-Type: text/csv\r\n{}\r\n{}",
+                                "Content-Type: {}\r\n{}\r\n{}",
                                 method,
                                 target,
                                 token_,
+                                type,
                                 body.empty() ? std::string{}
                                              : fmt::format("Content-Length: {}\r\n", body.size()),
                                 body));
@@ -137,12 +142,12 @@ protected:
     }
 
     /// Sends logs to a server, and waits until they are imported.
-    void send(const std::vector<std::string>& logs) const {
+    void send(const std::vector<std::string>& logs, std::string_view type = "text/csv") const {
         const PipedProgram server{serve_words()};
         answer_with("/health", "pass");
         for (const auto& log : logs) {
             const auto target = "/v1/trips/" + sha256_of(log);
-            EXPECT_EQ(ask("PUT", target, log).status, 202);
+            EXPECT_EQ(ask("PUT", target, log, type).status, 202);
             EXPECT_THAT(answer_with(target, "\"imported\"").body, HasSubstr("\"imported\""));
         }
     }
@@ -187,6 +192,9 @@ TEST_F(KeptLogs, AreReprocessedByWhoHasTheKeyToTheSameDigest) {
     EXPECT_THAT(done.err, HasSubstr("generation 2: 1 trip reprocessed, 0 unchanged"));
     EXPECT_EQ(digest(), before);
     EXPECT_EQ(kept(), std::vector<std::string>{kept_name(log)});
+    for (const auto& file : fs::recursive_directory_iterator{folder_}) { // not even a link is left
+        EXPECT_THAT(file.path().string(), Not(HasSubstr("open.part-")));
+    }
     EXPECT_THAT(run({"info", store_}).out, HasSubstr("logs        kept encrypted for 30 days"));
 }
 
@@ -236,6 +244,26 @@ TEST_F(KeptLogs, GoWithTheirTrips) {
     answer_with("/health", "pass");
     EXPECT_EQ(ask("DELETE", "/v1/trips/" + sha256_of(log_of("car-2"))).status, 202);
     answer_with("/v1/trips", "deleting", false);
+    EXPECT_THAT(kept(), IsEmpty());
+}
+
+TEST_F(KeptLogs, OfAnArchiveGoWithAnyOfItsTrips) {
+    const auto archive =
+        archive_of("zip", {{"a.trip.csv", log_of("car-1")}, {"b.trip.csv", log_of("car-2")}});
+    send({archive}, "application/zip");
+    EXPECT_EQ(kept(), std::vector<std::string>{sha256_of(archive) + ".zip.sealed"});
+    const auto before = digest();
+    EXPECT_THAT(reprocess("away/logs.key").err,
+                HasSubstr("generation 2: 2 trips reprocessed, 0 unchanged"));
+    EXPECT_EQ(digest(), before);
+    run({"forget", store_, "--vehicle-id", "car-1"});
+    EXPECT_THAT(kept(), IsEmpty());
+}
+
+TEST_F(KeptLogs, AreNoneThatHoldMoreThanTheirTrips) {
+    const auto archive =
+        archive_of("zip", {{"a.trip.csv", log_of("car-1")}, {"b.trip.csv", "# macadam-trip 1\n"}});
+    send({archive}, "application/zip"); // what is refused, nobody could ask to forget
     EXPECT_THAT(kept(), IsEmpty());
 }
 
