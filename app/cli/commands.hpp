@@ -63,7 +63,7 @@ void run(const Command& command,
          std::vector<std::string> words,
          std::span<const Default> defaults = {});
 
-extern const Command init_command;       // app/store/command_init.cpp
+extern const Command init_command;       // app/init/command_init.cpp
 extern const Command identify_command;   // app/profile/command_identify.cpp
 extern const Command inspect_command;    // app/inspect/command_inspect.cpp
 extern const Command import_command;     // app/import/command_import.cpp

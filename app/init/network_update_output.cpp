@@ -1,4 +1,4 @@
-#include "app/store/network_update_output.hpp"
+#include "app/init/network_update_output.hpp"
 
 #include "storage/text/json.hpp"
 

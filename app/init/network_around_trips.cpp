@@ -1,4 +1,4 @@
-#include "app/store/network_around_trips.hpp"
+#include "app/init/network_around_trips.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/trips/trip_reader.hpp"
