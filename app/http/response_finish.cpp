@@ -85,7 +85,10 @@ void encode(const HttpRequest& request, HttpResponse& response) {
     if (!response.is_gzipped && !is_compressible(response.type)) {
         return;
     }
-    const bool takes = takes_gzip(request.header("accept-encoding"));
+    // The size of what one client alone may see would tell of its content, to who makes his browser
+    // ask for it (BREACH, CVE-2013-3587).
+    const bool is_for_one = response.cache_control == "no-store";
+    const bool takes = !is_for_one && takes_gzip(request.header("accept-encoding"));
     if (response.is_gzipped && !takes) {
         response.body = gunzipped(response.body);
     } else if (!response.is_gzipped && takes && request.header("range").empty() &&

@@ -34,7 +34,7 @@ struct FinishedResponse {
 };
 
 /// Applies what a request says of the form of its response: 304 if the client has it, gzip, a range
-/// of it; and adds the headers that all responses have.
+/// of it; and adds the headers that all responses have. What no cache may store is not compressed.
 ///
 /// \param allowed_origin  of CORS, "*" or an origin; "" = none
 FinishedResponse

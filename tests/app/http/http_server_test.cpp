@@ -44,6 +44,10 @@ HttpHandlers handlers() {
         if (request.path == "/fails") {
             throw std::runtime_error{"secret.gpkg is broken"};
         }
+        if (request.path == "/own") {
+            return {
+                .type = "text/plain", .body = std::string(5000, 'a'), .cache_control = "no-store"};
+        }
         return {.type = "text/plain", .body = std::string(5000, 'a'), .etag = "v1"};
     };
     made.answer_at_once = [](const HttpRequest& request) -> std::optional<HttpResponse> {
@@ -96,6 +100,8 @@ TEST(HttpServer, CompressesForThoseWhoTakeIt) {
     EXPECT_EQ(gunzipped(packed.body), std::string(5000, 'a'));
     EXPECT_FALSE(get(server.port(), "/a", "Accept-Encoding: gzip;q=0\r\n")
                      .headers.contains("content-encoding"));
+    EXPECT_FALSE(get(server.port(), "/own", "Accept-Encoding: gzip\r\n")
+                     .headers.contains("content-encoding")); // BREACH
 }
 
 TEST(HttpServer, SendsNothingThatTheClientHas) {
