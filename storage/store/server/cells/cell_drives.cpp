@@ -17,20 +17,6 @@ std::string array_of(const Numbers& numbers) {
     return fmt::format("{{{}}}", fmt::join(numbers, ","));
 }
 
-/// Notes the trips at once, whatever becomes of the transaction, and holds the notes in it.
-void note_trips(ServerConnection& front, const std::string& trips, std::size_t count) {
-    ServerConnection{front.address()}.rows(
-        "INSERT INTO macadam.unfinished (trip) SELECT unnest($1::bigint[])", {trips});
-    if (front
-            .rows("SELECT trip FROM macadam.unfinished WHERE trip = ANY($1::bigint[]) FOR UPDATE",
-                  {trips})
-            .size() != count) {
-        throw ServerTrouble{fmt::format("{}: removed the trips before their passes were written; "
-                                        "run the command again",
-                                        front.address())};
-    }
-}
-
 /// Sends a call for each cell.
 void send_drives(ServerConnection& front) {
     std::string arrays;
@@ -73,22 +59,41 @@ bool are_elsewhere(ServerConnection& front, const std::set<std::int32_t>& cells)
                 .empty();
 }
 
-std::string place_for_drives(ServerConnection& front) {
-    const auto& drive = server_table("drive");
-    front.run(fmt::format("CREATE TEMP TABLE new_drive ON COMMIT DROP AS"
-                          " SELECT {} FROM macadam.drive WHERE false",
-                          column_list(drive)));
-    return fmt::format("pg_temp.new_drive ({})", column_list(drive));
+std::string CellDrives::place() {
+    front_->run("CREATE TEMP TABLE IF NOT EXISTS new_drive (LIKE macadam.drive)"
+                " ON COMMIT DELETE ROWS");
+    return fmt::format("pg_temp.new_drive ({})", column_list(server_table("drive")));
 }
 
-void put_drives(ServerConnection& front, std::span<const std::int64_t> trips) {
+void CellDrives::put(std::span<const std::int64_t> trips) {
     const auto all = array_of(trips);
-    note_trips(front, all, trips.size());
-    send_drives(front);
-    front.run(fmt::format("INSERT INTO macadam.drive ({0}) SELECT {0} FROM pg_temp.new_drive"
-                          " WHERE cell NOT IN (SELECT cell FROM macadam.cell_place)",
-                          column_list(server_table("drive"))));
-    front.rows("DELETE FROM macadam.unfinished WHERE trip = ANY($1::bigint[])", {all});
+    note(all, trips.size());
+    send_drives(*front_);
+    front_->run(fmt::format("INSERT INTO macadam.drive ({0}) SELECT {0} FROM pg_temp.new_drive"
+                            " WHERE cell NOT IN (SELECT cell FROM macadam.cell_place)",
+                            column_list(server_table("drive"))));
+    front_->rows("DELETE FROM macadam.unfinished WHERE trip = ANY($1::bigint[])", {all});
+}
+
+/// Notes the trips at once, whatever becomes of the transaction, and holds the notes in it.
+void CellDrives::note(const std::string& trips, std::size_t count) {
+    if (!notes_) {
+        notes_.emplace(front_->address());
+    }
+    try {
+        notes_->rows("INSERT INTO macadam.unfinished (trip) SELECT unnest($1::bigint[])", {trips});
+    } catch (const InputError&) {
+        notes_.reset(); // perhaps broken
+        throw;
+    }
+    if (front_
+            ->rows("SELECT trip FROM macadam.unfinished WHERE trip = ANY($1::bigint[]) FOR UPDATE",
+                   {trips})
+            .size() != count) {
+        throw ServerTrouble{fmt::format("{}: removed the trips before their passes were written; "
+                                        "run the command again",
+                                        front_->address())};
+    }
 }
 
 void remove_unfinished(ServerConnection& front) {

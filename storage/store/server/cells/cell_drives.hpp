@@ -2,7 +2,9 @@
 
 #include "storage/postgres/server_connection.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -16,16 +18,27 @@ namespace macadam {
 /// Tests whether other servers hold any of these cells, which the transaction shares.
 bool are_elsewhere(ServerConnection& front, const std::set<std::int32_t>& cells);
 
-/// Makes a place for rows of table drive that put_drives() distributes. \returns the target of a
-/// CopyWriter.
-std::string place_for_drives(ServerConnection& front);
+/// Writes drives of new trips to the servers of their cells.
+class CellDrives {
+public:
+    explicit CellDrives(ServerConnection& front) : front_{&front} {}
 
-/// Stores the rows in the place for drives, each in its cell. Within the caller's transaction, but
-/// other servers keep theirs whatever becomes of it.
-///
-/// \param trips  rows of all their trips
-/// \throws ServerTrouble  if a server does not take them, or a standby of it may lack them.
-void put_drives(ServerConnection& front, std::span<const std::int64_t> trips);
+    /// Makes a place for rows of table drive. \returns the target of a CopyWriter.
+    std::string place();
+
+    /// Stores the rows in that place, each in its cell. Within a transaction of the front, but
+    /// other servers keep theirs whatever becomes of it.
+    ///
+    /// \param trips  rows of all their trips
+    /// \throws ServerTrouble  if a server does not take them, or a standby of it may lack them.
+    void put(std::span<const std::int64_t> trips);
+
+private:
+    void note(const std::string& trips, std::size_t count);
+
+    ServerConnection* front_;
+    std::optional<ServerConnection> notes_; ///< for transactions beside that of front_
+};
 
 /// Removes the drives of trips that were not stored, unless they were sent in the last minutes.
 void remove_unfinished(ServerConnection& front);

@@ -81,7 +81,7 @@ public:
         }
         ServerTransaction all{*server_};
         expect_same();
-        auto added = write_trips(*server_, *image_, rows_, key(), trips);
+        auto added = write_trips(*server_, cell_drives_, *image_, rows_, key(), trips);
         all.commit();
         return added;
     }
@@ -183,6 +183,7 @@ private:
     }
 
     std::unique_ptr<ServerConnection> server_;
+    CellDrives cell_drives_{*server_};
     ServerSettings settings_;
     std::shared_ptr<StoreConnection> image_;
     ImageRows rows_;

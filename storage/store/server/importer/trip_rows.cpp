@@ -39,8 +39,11 @@ struct Candidate {
 
 class TripWriting {
 public:
-    TripWriting(ServerConnection& server, const StoreConnection& image, ImageRows& rows)
-        : server_{&server}, image_{&image}, rows_{&rows} {}
+    TripWriting(ServerConnection& server,
+                CellDrives& cells,
+                const StoreConnection& image,
+                ImageRows& rows)
+        : server_{&server}, cell_drives_{&cells}, image_{&image}, rows_{&rows} {}
 
     std::vector<bool> write(std::span<const NewTrip> trips, const PrivacyKey* key) {
         std::vector<bool> added(trips.size());
@@ -183,14 +186,14 @@ private:
         const bool elsewhere = are_elsewhere(*server_, cells);
         const auto& table = server_table("drive");
         CopyWriter writer{*server_,
-                          elsewhere ? place_for_drives(*server_) : copy_target(table),
+                          elsewhere ? cell_drives_->place() : copy_target(table),
                           static_cast<int>(table.columns.size())};
         for (auto& [name, drive] : drives_) {
             write_drive(writer, rows_->place_of(name.chunk).cell, name, std::move(drive));
         }
         writer.finish();
         if (elsewhere) {
-            put_drives(*server_, std::vector<std::int64_t>{trips.begin(), trips.end()});
+            cell_drives_->put(std::vector<std::int64_t>{trips.begin(), trips.end()});
         }
     }
 
@@ -242,6 +245,7 @@ private:
     }
 
     ServerConnection* server_;
+    CellDrives* cell_drives_;
     const StoreConnection* image_;
     ImageRows* rows_;
     std::map<DriveName, ChunkDrive> drives_;
@@ -251,11 +255,12 @@ private:
 } // namespace
 
 std::vector<bool> write_trips(ServerConnection& server,
+                              CellDrives& cells,
                               const StoreConnection& image,
                               ImageRows& rows,
                               const PrivacyKey* key,
                               std::span<const NewTrip> trips) {
-    return TripWriting{server, image, rows}.write(trips, key);
+    return TripWriting{server, cells, image, rows}.write(trips, key);
 }
 
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/records/store_records.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/importer/network_image.hpp"
 
 #include <span>
@@ -16,9 +17,11 @@ namespace macadam {
 /// Rows on which others could wait are taken in one order by all: vehicles, trips, chunks, each
 /// rising; so nobody waits in a circle.
 ///
+/// \param cells  of the same connection
 /// \param key  null: the trips name no cars.
 /// \returns for each trip whether it is new.
 std::vector<bool> write_trips(ServerConnection& server,
+                              CellDrives& cells,
                               const StoreConnection& image,
                               ImageRows& rows,
                               const PrivacyKey* key,
