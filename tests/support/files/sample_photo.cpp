@@ -16,8 +16,8 @@ constexpr std::size_t start_bytes = 2; // of a JPEG, before its segments
 /// TIFF structure of EXIF data, in the byte order of a camera.
 class TiffWriter {
 public:
-    explicit TiffWriter(bool big_endian) : big_endian_{big_endian} {
-        bytes_ = big_endian ? "MM" : "II";
+    explicit TiffWriter(bool big_endian)
+        : big_endian_{big_endian}, bytes_{big_endian ? "MM" : "II"} {
         put(42, 2);
         put(8, 4); // the first directory follows
     }

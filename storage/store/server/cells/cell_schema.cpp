@@ -253,7 +253,7 @@ ConnectionSettings settings_of(const std::string& address) {
 void add_foreign_server(ServerConnection& front,
                         const CellServer& server,
                         const std::string& address) {
-    std::string options = "fetch_size '10000', batch_size '1000'";
+    std::string options = "fetch_size '10000', batch_size '1000', use_remote_estimate 'true'";
     std::string user;
     for (const auto& [keyword, value] : settings_of(address)) {
         (keyword == "user" ? user : options) += fmt::format(

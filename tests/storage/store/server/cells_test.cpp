@@ -206,7 +206,7 @@ TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
 }
 
 TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
-    constexpr int trips = 24;
+    constexpr int trips = 12;
     spread();
     const auto third = server_.new_database("third");
     const auto fourth = east_server_.new_database("fourth");
