@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -245,6 +246,33 @@ TEST_F(KeptLogs, GoWithTheirTrips) {
     EXPECT_EQ(ask("DELETE", "/v1/trips/" + sha256_of(log_of("car-2"))).status, 202);
     answer_with("/v1/trips", "deleting", false);
     EXPECT_THAT(kept(), IsEmpty());
+}
+
+TEST_F(KeptLogs, AreKeptByServersThatAreKilled) {
+    const std::vector<std::string> logs{log_of("car-1"), log_of("car-2"), log_of("car-3")};
+    for (int kill = 0; kill < 8; ++kill) { // while the first is sent, worked out, encrypted, ...
+        PipedProgram server{serve_words()};
+        answer_with("/health", "pass");
+        for (const auto& log : logs) {
+            ask("PUT", "/v1/trips/" + sha256_of(log), log);
+        }
+        std::this_thread::sleep_for(40ms * kill);
+        server.signal(SIGKILL);
+        server.wait();
+    }
+    const PipedProgram server{serve_words()};
+    answer_with("/health", "pass");
+    std::vector<std::string> names;
+    for (const auto& log : logs) {
+        answer_with("/v1/trips/" + sha256_of(log), "\"imported\"");
+        names.push_back(kept_name(log));
+    }
+    std::ranges::sort(names);
+    EXPECT_EQ(kept(), names);
+    EXPECT_TRUE(fs::is_empty(store_ + ".uploads/spool"));
+    const auto before = digest();
+    EXPECT_THAT(reprocess("away/logs.key").err, HasSubstr("3 trips reprocessed, 0 unchanged"));
+    EXPECT_EQ(digest(), before);
 }
 
 TEST_F(KeptLogs, OfAnArchiveGoWithAnyOfItsTrips) {
