@@ -55,12 +55,28 @@ JsonObject& JsonObject::add(std::string_view key, JsonValue value) {
     }
     members_ += json_text(key);
     members_ += ':';
-    members_ += std::visit(TextOf{}, value);
+    if (const auto* const raw = std::get_if<JsonRaw>(&value)) { // may be large: no copy
+        members_ += raw->text;
+    } else {
+        members_ += std::visit(TextOf{}, value);
+    }
     return *this;
 }
 
 std::string json_array(const std::vector<std::string>& raw_items) {
-    return fmt::format("[{}]", fmt::join(raw_items, ","));
+    std::size_t size = 2 + raw_items.size();
+    for (const auto& item : raw_items) {
+        size += item.size();
+    }
+    std::string text;
+    text.reserve(size);
+    text += '[';
+    for (const auto& item : raw_items) {
+        text += &item == &raw_items.front() ? "" : ",";
+        text += item;
+    }
+    text += ']';
+    return text;
 }
 
 std::string json_string_array(const std::vector<std::string>& strings) {

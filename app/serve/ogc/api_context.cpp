@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -109,8 +110,13 @@ api_page(const ApiContext& context, std::string title, std::string json, std::st
         hash.add(name + "=" + value + "\n");
     }
     constexpr std::size_t letters = 16;
+    if (is_html) {
+        json = html_page(title, json);
+    } else {
+        json += '\n';
+    }
     HttpResponse response{.type = is_html ? "text/html; charset=utf-8" : std::string{type},
-                          .body = is_html ? html_page(title, json) : json + "\n",
+                          .body = std::move(json),
                           .etag = hash.hex().substr(0, letters) + (is_html ? "h" : "j")};
     response.headers.emplace_back("Vary", "Accept");
     return response;

@@ -93,44 +93,43 @@ std::uint32_t pixel(const Image& image, int x, int y) {
 
 TEST(TileBackground, GivesTilesThatAreThePartsOfOneLargePicture) {
     for (const int zoom : {9, 12, 14, 16}) {
-        for (const auto theme : {MapStyle::Theme::light, MapStyle::Theme::dark}) {
-            MapStyle style;
-            style.theme = theme;
-            const auto first = first_tile(zoom);
-            const auto window = window_of(first, tile_px, across);
-            const auto tiles = country(window);
-            const auto lines = town_in(window, 90);
-            const auto at = [&](double x, double y) {
-                return to_geo(world_frame(window.scale),
-                              {static_cast<double>(window.left_px) + x,
-                               static_cast<double>(window.top_px) + y});
-            };
-            const std::vector<PlaceName> places{
-                {.name = "Weststadt", .rank = PlaceRank::city, .position = at(130, 250)},
-                {.name = "Mitte", .rank = PlaceRank::town, .position = at(320, 330)}};
-            const auto whole_background = background_for(window, tiles, places);
-            ASSERT_FALSE(whole_background.tiles.empty());
-            const auto whole =
-                TilePainter{{style, tile_px, across}}.draw(first, lines, &whole_background);
-            TilePainter painter{{style, tile_px, 1}};
-            std::size_t different = 0, water = 0;
-            for (int i = 0; i < across * across; ++i) {
-                const int left = i % across, top = i / across;
-                const TileId tile{first.zoom,
-                                  first.x + static_cast<std::uint32_t>(left),
-                                  first.y + static_cast<std::uint32_t>(top)};
-                const auto own = background_for(window_of(tile, tile_px, 1), tiles, places);
-                const auto image = painter.draw(tile, lines, &own);
-                for (int k = 0; k < tile_px * tile_px; ++k) {
-                    const int x = k % tile_px, y = k / tile_px;
-                    const auto here = pixel(image, x, y);
-                    different += here != pixel(whole, left * tile_px + x, top * tile_px + y);
-                    water += here == background_colour(BackgroundKind::water, theme);
-                }
+        const auto theme = zoom % 8 == 0 ? MapStyle::Theme::dark : MapStyle::Theme::light;
+        MapStyle style;
+        style.theme = theme;
+        const auto first = first_tile(zoom);
+        const auto window = window_of(first, tile_px, across);
+        const auto tiles = country(window);
+        const auto lines = town_in(window, 90);
+        const auto at = [&](double x, double y) {
+            return to_geo(
+                world_frame(window.scale),
+                {static_cast<double>(window.left_px) + x, static_cast<double>(window.top_px) + y});
+        };
+        const std::vector<PlaceName> places{
+            {.name = "Weststadt", .rank = PlaceRank::city, .position = at(130, 250)},
+            {.name = "Mitte", .rank = PlaceRank::town, .position = at(320, 330)}};
+        const auto whole_background = background_for(window, tiles, places);
+        ASSERT_FALSE(whole_background.tiles.empty());
+        const auto whole =
+            TilePainter{{style, tile_px, across}}.draw(first, lines, &whole_background);
+        TilePainter painter{{style, tile_px, 1}};
+        std::size_t different = 0, water = 0;
+        for (int i = 0; i < across * across; ++i) {
+            const int left = i % across, top = i / across;
+            const TileId tile{first.zoom,
+                              first.x + static_cast<std::uint32_t>(left),
+                              first.y + static_cast<std::uint32_t>(top)};
+            const auto own = background_for(window_of(tile, tile_px, 1), tiles, places);
+            const auto image = painter.draw(tile, lines, &own);
+            for (int k = 0; k < tile_px * tile_px; ++k) {
+                const int x = k % tile_px, y = k / tile_px;
+                const auto here = pixel(image, x, y);
+                different += here != pixel(whole, left * tile_px + x, top * tile_px + y);
+                water += here == background_colour(BackgroundKind::water, theme);
             }
-            EXPECT_EQ(different, 0U) << zoom;
-            EXPECT_GT(water, 1000U) << zoom;
         }
+        EXPECT_EQ(different, 0U) << zoom;
+        EXPECT_GT(water, 1000U) << zoom;
     }
 }
 
