@@ -123,6 +123,7 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .other_sizes = options.output.other_sizes,
                              .events =
                                  options.events && can_show_events(store, options.filter, console),
+                             .insets = !options.output.bare,
                              .background = options.background};
     auto plan = options.since_ms    ? load_change_map(store, request, *options.since_ms)
                 : options.knowledge ? load_knowledge_map(store, request, *options.knowledge)

@@ -5,6 +5,7 @@
 #include "app/database/selection.hpp"
 #include "app/render/base_map_option.hpp"
 #include "app/render/box_visit.hpp"
+#include "app/render/data_parts.hpp"
 #include "app/render/line_collector.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/store/reader/store_background.hpp"
@@ -15,45 +16,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 namespace macadam {
 namespace {
 
-constexpr double margin_share = 0.02; // of the driven extent, to keep roads off the frame
-constexpr double min_margin_m = 50;
-constexpr double max_lat_deg = 85;
-constexpr double min_shape = 0.25; // of the shorter side, relative to the longer
 constexpr double certain_sd = 0.5; // relative; above it the line has a narrower core
-
-/// Returns the box with ground around it: a single road gets some on both sides.
-GeoBox box_with_margin(const GeoBox& box) {
-    const double diagonal_m =
-        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
-    auto around = grown(box, std::max(min_margin_m, margin_share * diagonal_m));
-    const GeoPoint middle{(around.south_deg + around.north_deg) / 2,
-                          (around.west_deg + around.east_deg) / 2};
-    const double width_m =
-        distance_m({middle.lat_deg, around.west_deg}, {middle.lat_deg, around.east_deg});
-    const double height_m =
-        distance_m({around.south_deg, middle.lon_deg}, {around.north_deg, middle.lon_deg});
-    const double missing_width = min_shape * height_m / width_m;
-    if (missing_width > 1) {
-        const double half_deg = (around.east_deg - around.west_deg) / 2 * missing_width;
-        around.west_deg = middle.lon_deg - half_deg;
-        around.east_deg = middle.lon_deg + half_deg;
-    }
-    const double missing_height = min_shape * width_m / height_m;
-    const double half_deg = (around.north_deg - around.south_deg) / 2 * missing_height;
-    if (missing_height > 1 && std::abs(middle.lat_deg) + half_deg < max_lat_deg) {
-        around.south_deg = middle.lat_deg - half_deg;
-        around.north_deg = middle.lat_deg + half_deg;
-    }
-    return around;
-}
 
 std::string subtitle_of_empty_map(const StoreReader& store) {
     return store.shows_published_alone() ? "No measurements are published yet"
@@ -228,6 +199,20 @@ selected_states(const StoreReader& store, const SegmentFilter& filter, const Geo
     return states;
 }
 
+/// Returns the numbers of roads by way. Of several the first counts, as on the largest sign; what
+/// is longer than numbers are is none.
+std::unordered_map<std::int64_t, std::string> road_numbers(const StoreReader& store) {
+    constexpr std::size_t longest = 10;
+    std::unordered_map<std::int64_t, std::string> numbers;
+    for (const auto& [way_id, ref] : StoreBackground{store}.road_refs()) {
+        const auto first = ref.substr(0, ref.find(';'));
+        if (!first.empty() && first.size() <= longest) {
+            numbers.emplace(way_id, first);
+        }
+    }
+    return numbers;
+}
+
 } // namespace
 
 std::string period_text(const ObservedPeriod& seen) {
@@ -271,12 +256,16 @@ std::vector<MapLine> map_lines(const StoreReader& store,
     SegmentFilter all;
     all.with_state_only = false;
     LineCollector lines{joining};
+    const auto numbers = road_numbers(store);
     visit_box(store, all, box, [&](const SegmentRecord& record) {
         MapLine line;
         line.line = record.segment.line;
         line.forward = record.segment.key.forward;
         line.rank = rank_of(record.highway);
         line.name = record.name;
+        if (const auto found = numbers.find(record.segment.key.way_id); found != numbers.end()) {
+            line.number = found->second;
+        }
         paint(record, line);
         lines.add(record.segment, std::move(line));
     });
@@ -328,35 +317,45 @@ MapPlan load_map(const StoreReader& store,
         style.words.unmeasured = "Not selected or measured";
     }
     auto scene = scene_around(store, request);
+    if (request.insets && !request.filter.box) {
+        set_insets(store, request.filter, scene);
+    }
     const auto size = size_for(scene, style, request.size, request.other_sizes);
     MapPlan plan{std::move(scene), std::move(style), size};
-    const auto load = [&](const GeoBox& box) {
-        const auto& level = plan.background_level();
-        const auto set_background = [&] {
-            const StoreBackground background{store};
-            plan.set_background({request.base ? std::vector<BackgroundTile>{}
-                                              : background.tiles(plan.background_level(), box),
-                                 background.places(box)});
-        };
+    const auto set_background = [&](MapPlan& map, const GeoBox& box, bool with_places) {
         if (request.background) {
-            set_background();
-        }
-        plan.set_roads(lines ? lines(box)
-                             : map_lines(store,
-                                         box,
-                                         classes_of(request),
-                                         request.style.min_passes,
-                                         filter,
-                                         plan.scale()),
-                       request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
-        if (request.background && &plan.background_level() != &level) {
-            set_background(); // the legend made the map smaller
+            const StoreBackground background{store};
+            map.set_background({request.base ? std::vector<BackgroundTile>{}
+                                             : background.tiles(map.background_level(), box),
+                                with_places ? background.places(box) : std::vector<PlaceName>{}});
         }
     };
-    const auto ground = plan.ground();
-    load(ground);
+    const auto load = [&](MapPlan& map) {
+        const auto box = map.ground();
+        const auto& level = map.background_level();
+        set_background(map, box, true);
+        map.set_roads(lines ? lines(box)
+                            : map_lines(store,
+                                        box,
+                                        classes_of(request),
+                                        request.style.min_passes,
+                                        filter,
+                                        map.scale()),
+                      request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
+        if (&map.background_level() != &level) {
+            set_background(map, box, true); // the legend made the map smaller
+        }
+        return box;
+    };
+    const auto ground = load(plan);
     if (!holds(ground, plan.ground())) {
-        load(plan.ground());
+        load(plan);
+    }
+    for (auto& inset : plan.insets()) {
+        load(inset);
+    }
+    if (auto* const locator = plan.locator()) {
+        set_background(*locator, locator->ground(), false);
     }
     expect_roads(plan.scene());
     return plan;

@@ -60,6 +60,7 @@ struct MapRequest {
     PictureSize size{};
     std::vector<PictureSize> other_sizes{}; ///< for size_for
     bool events = false;                    ///< also potholes and other events
+    bool insets = false;                    ///< for parts of the data far off the others
     bool background = true; ///< water, green and the like, where the database has them
 };
 

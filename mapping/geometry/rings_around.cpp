@@ -1,13 +1,11 @@
 #include "mapping/geometry/rings_around.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cstdint>
 #include <numeric>
 
 namespace macadam {
 namespace {
-
-constexpr std::size_t max_tests = 1'000'000'000; // of points and sides
 
 /// Side of a ring.
 struct Side {
@@ -35,35 +33,37 @@ std::vector<Side> sides_of(std::span<const std::vector<RingPoint>> rings) {
 } // namespace
 
 std::optional<std::vector<std::size_t>> rings_around(std::span<const std::vector<RingPoint>> rings,
-                                                     std::span<const RingPoint> points) {
+                                                     std::span<const RingPoint> points,
+                                                     std::size_t max_comparisons) {
     const auto sides = sides_of(rings);
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return points[i].y; });
     std::vector<std::size_t> found(points.size(), rings.size());
     std::vector<std::size_t> active;
+    std::vector<std::uint8_t> is_within(rings.size(), 0);
     std::size_t next = 0;
-    std::size_t tests = 0;
+    std::size_t comparisons = 0;
     for (const auto number : order) {
         const auto& point = points[number];
         for (; next < sides.size() && sides[next].low.y <= point.y; ++next) {
             active.push_back(next);
         }
-        tests += active.size();
-        if (tests > max_tests) {
+        comparisons += active.size();
+        if (comparisons > max_comparisons) {
             return {};
         }
         std::erase_if(active, [&](std::size_t side) { return sides[side].high.y <= point.y; });
-        std::map<std::size_t, bool> is_within;
         for (const auto side : active) {
             const auto& [low, high, ring] = sides[side];
             const double x = low.x + (point.y - low.y) / (high.y - low.y) * (high.x - low.x);
-            is_within[ring] ^= x > point.x;
+            is_within[ring] ^= x > point.x ? 1 : 0;
         }
-        const auto around =
-            std::ranges::find_if(is_within, [](const auto& each) { return each.second; });
-        if (around != is_within.end()) {
-            found[number] = around->first;
+        for (const auto side : active) {
+            auto& is_around = is_within[sides[side].ring];
+            found[number] =
+                is_around != 0 ? std::min(found[number], sides[side].ring) : found[number];
+            is_around = 0;
         }
     }
     return found;

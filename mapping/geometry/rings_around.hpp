@@ -16,9 +16,10 @@ struct RingPoint {
 /// Finds the ring around each point by a sweep over all of them: the number of the first ring that
 /// holds it, or that of the rings if none does. The first point of a ring is not repeated.
 ///
-/// \returns `std::nullopt` if it would take more than a thousand million comparisons, as with rings
-///          of many long sides.
+/// \returns `std::nullopt` if it would take more comparisons of points and sides than that, as with
+///          very many rings of long sides.
 std::optional<std::vector<std::size_t>> rings_around(std::span<const std::vector<RingPoint>> rings,
-                                                     std::span<const RingPoint> points);
+                                                     std::span<const RingPoint> points,
+                                                     std::size_t max_comparisons = 2'000'000'000);
 
 } // namespace macadam

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace macadam {
 namespace {
@@ -87,6 +88,19 @@ void Canvas::fill_triangle(const PixelPoint& a,
         const PixelPoint at{x + 0.5, y + 0.5};
         return 0.5 - std::max({left_of_px(a, b, at), left_of_px(b, c, at), left_of_px(c, a, at)});
     });
+}
+
+void Canvas::lay(const Image& picture, int left_px, int top_px) {
+    const int top = std::max(top_px, top_px_);
+    const int bottom = std::min(top_px + picture.height, top_px_ + image_.height);
+    const int width = std::min(picture.width, image_.width - left_px);
+    for (int y = top; y < bottom; ++y) {
+        const auto row = picture.rgb.begin() + std::ptrdiff_t(y - top_px) * picture.width * 3;
+        std::copy_n(row,
+                    std::ptrdiff_t(width) * 3,
+                    image_.rgb.begin() +
+                        (std::ptrdiff_t(y - top_px_) * image_.width + left_px) * 3);
+    }
 }
 
 void Canvas::write(const TextMask& text, const PixelPoint& at, std::uint32_t rgb) {

@@ -24,6 +24,9 @@ public:
                        std::uint32_t rgb) override;
     void write(const TextMask& text, const PixelPoint& at, std::uint32_t rgb) override;
 
+    /// Lays a picture on this one. \param left_px, top_px  of its corner
+    void lay(const Image& picture, int left_px, int top_px);
+
     Image finished() && { return std::move(image_); }
 
 private:

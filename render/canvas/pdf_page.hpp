@@ -67,6 +67,10 @@ public:
 
     /// Clips the following drawing to the box, until end_clip().
     virtual void begin_clip(const PixelBox& box) = 0;
+
+    /// Clips the following drawing to the box and measures it from the box's corner, until
+    /// end_clip().
+    virtual void begin_part(const PixelBox& box) = 0;
     virtual void end_clip() = 0;
 
     virtual void next_page() = 0;

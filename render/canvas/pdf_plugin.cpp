@@ -173,6 +173,11 @@ public:
         cairo_clip(cairo_.get());
     }
 
+    void begin_part(const PixelBox& box) override {
+        begin_clip(box);
+        cairo_translate(cairo_.get(), box.left, box.top);
+    }
+
     void end_clip() override { cairo_restore(cairo_.get()); }
 
     void next_page() override { cairo_show_page(cairo_.get()); }

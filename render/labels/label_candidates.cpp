@@ -14,6 +14,7 @@ constexpr double cost_of_bend = 3;
 constexpr double cost_of_distance = 0.6; // halfway to the next label
 constexpr double cost_below = 0.08;      // names are usually above their road
 constexpr double cost_of_position = 0.1; // around a point, from one to the next best
+constexpr double cost_of_measured = 100; // of a place's name: only if no position is free
 
 constexpr double max_place_covered = 0.6; // places lie in the densest streets
 
@@ -33,10 +34,10 @@ double distance_px(const PixelPoint& point, const ClusterPose& place, const Text
                       std::max({0.0, low - up, up - high}));
 }
 
-/// Returns the left ends of the baselines of a name around a point, the best first.
+/// Returns the left ends of the baselines of a name on a point and around it, the best first, close
+/// to it and then farther away.
 std::vector<PixelPoint> ends_around(const PointName& place, const TextLook& look, double width_px) {
     const double cap_px = capitals * look.size_px;
-    const double gap_px = place.symbol_px + 0.3 * look.size_px;
     const auto& [x, y] = place.at;
     const double middle = x - width_px / 2;
     const double level = y + cap_px / 2;
@@ -44,19 +45,22 @@ std::vector<PixelPoint> ends_around(const PointName& place, const TextLook& look
     if (place.symbol_px <= 0) {
         ends.push_back({middle, level});
     }
-    const double right = x + gap_px;
-    const double left = x - gap_px - width_px;
-    const double above = y - gap_px / 2;
-    const double below = y + gap_px / 2 + cap_px;
-    for (const PixelPoint& end : {PixelPoint{right, above},
-                                  {left, above},
-                                  {left, below},
-                                  {right, below},
-                                  {right, level},
-                                  {middle, y - gap_px},
-                                  {left, level},
-                                  {middle, y + gap_px + cap_px}}) {
-        ends.push_back(end);
+    for (const double gap : {0.3, 1.0, 1.8}) {
+        const double gap_px = place.symbol_px + gap * look.size_px;
+        const double right = x + gap_px;
+        const double left = x - gap_px - width_px;
+        const double above = y - gap_px / 2;
+        const double below = y + gap_px / 2 + cap_px;
+        for (const PixelPoint& end : {PixelPoint{right, above},
+                                      {left, above},
+                                      {left, below},
+                                      {right, below},
+                                      {right, level},
+                                      {middle, y - gap_px},
+                                      {left, level},
+                                      {middle, y + gap_px + cap_px}}) {
+            ends.push_back(end);
+        }
     }
     return ends;
 }
@@ -105,9 +109,12 @@ void LabelCandidates::visit_around(const LabelSubject& subject, const Visitor& v
         auto found = upright(subject, end);
         found.middle = place.at;
         find_boxes(found, subject.look);
-        const double cover = covered(found, subject.look);
-        if (is_allowed(found) && cover <= max_place_covered) {
-            found.cost = cost_of_cover * cover + position_cost;
+        const auto cover = covered(found, subject.look);
+        const bool is_free = cover.measured <= 0;
+        if (is_allowed(found) && cover.roads <= max_place_covered &&
+            (is_free || place.may_cover_measured)) {
+            found.cost =
+                cost_of_cover * cover.roads + position_cost + (is_free ? 0 : cost_of_measured);
             visitor(std::move(found));
         }
         position_cost += cost_of_position;
@@ -166,7 +173,7 @@ LabelCandidates::beside_road(const LabelTask& task, double middle_px, const Base
     if (!is_allowed(found) || is_on_core(found, subject.look)) {
         return {};
     }
-    const double cover = covered(found, subject.look);
+    const double cover = covered(found, subject.look).roads;
     if (cover > config_.max_covered) {
         return {};
     }
@@ -245,9 +252,11 @@ bool LabelCandidates::is_on_core(const LabelCandidate& candidate, const TextLook
     });
 }
 
-double LabelCandidates::covered(const LabelCandidate& candidate, const TextLook& look) const {
+LabelCandidates::Cover LabelCandidates::covered(const LabelCandidate& candidate,
+                                                const TextLook& look) const {
     int all = 0;
     double road = 0;
+    int measured = 0;
     for (const auto& place : candidate.places) {
         const auto corners = corners_of(place, look);
         for (const double x : {0.25, 0.75}) {
@@ -258,12 +267,13 @@ double LabelCandidates::covered(const LabelCandidate& candidate, const TextLook&
                 const PixelPoint right{corners[2].x * top + corners[3].x * y,
                                        corners[2].y * top + corners[3].y * y};
                 ++all;
-                road += ground_.weight(
-                    {left.x * (1 - x) + right.x * x, left.y * (1 - x) + right.y * x});
+                const PixelPoint at{left.x * (1 - x) + right.x * x, left.y * (1 - x) + right.y * x};
+                road += ground_.weight(at);
+                measured += ground_.is_measured(at) ? 1 : 0;
             }
         }
     }
-    return road / std::max(1, all);
+    return {road / std::max(1, all), double(measured) / std::max(1, all)};
 }
 
 } // namespace macadam

@@ -65,6 +65,12 @@ public:
 
 private:
     using Visitor = std::function<void(LabelCandidate&&)>;
+
+    /// Shares of a label's area.
+    struct Cover {
+        double roads;    ///< weighted
+        double measured; ///< on measured roads
+    };
     void visit_around(const LabelSubject& subject, const Visitor& visitor) const;
     void visit_along(const LabelTask& task, double& limit, const Visitor& visitor) const;
     std::optional<LabelCandidate>
@@ -74,7 +80,7 @@ private:
     void find_boxes(LabelCandidate& candidate, const TextLook& look) const;
     bool is_allowed(const LabelCandidate& candidate) const;
     bool is_on_core(const LabelCandidate& candidate, const TextLook& look) const;
-    double covered(const LabelCandidate& candidate, const TextLook& look) const;
+    Cover covered(const LabelCandidate& candidate, const TextLook& look) const;
 
     PixelBox cell_; ///< from (0, 0)
     LabelConfig config_;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint8_t minor = 1;
 constexpr std::uint8_t major = 2;
+constexpr std::uint8_t measured = 3;
 constexpr int first_minor_rank = 3; // tertiary roads
 constexpr double minor_weight = 0.35;
 
@@ -26,7 +27,7 @@ OccupancyGrid::OccupancyGrid(const PixelBox& cell,
 
 void OccupancyGrid::mark(const NamedPart& part) {
     const double reach = part.half_width_px / square_px_;
-    const auto mark = part.quiet && part.rank >= first_minor_rank ? minor : major;
+    const auto mark = !part.quiet ? measured : part.rank >= first_minor_rank ? minor : major;
     const auto mark_around = [&](double x, double y) {
         const int left = std::max(0, int(std::floor(x - reach)));
         const int right = std::min(columns_ - 1, int(std::floor(x + reach)));
@@ -51,14 +52,22 @@ void OccupancyGrid::mark(const NamedPart& part) {
     }
 }
 
-double OccupancyGrid::weight(const PixelPoint& at) const {
+std::uint8_t OccupancyGrid::road_at(const PixelPoint& at) const {
     const int column = int(std::floor(at.x / square_px_));
     const int row = int(std::floor(at.y / square_px_));
     if (column < 0 || column >= columns_ || row < 0 || row >= rows_) {
         return 0;
     }
-    const auto road = road_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
-    return road == major ? 1 : road == minor ? minor_weight : 0;
+    return road_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+}
+
+double OccupancyGrid::weight(const PixelPoint& at) const {
+    const auto road = road_at(at);
+    return road >= major ? 1 : road == minor ? minor_weight : 0;
+}
+
+bool OccupancyGrid::is_measured(const PixelPoint& at) const {
+    return road_at(at) == measured;
 }
 
 } // namespace macadam

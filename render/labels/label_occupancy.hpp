@@ -18,7 +18,11 @@ public:
     /// \param at  in pixels from the cell's corner
     double weight(const PixelPoint& at) const;
 
+    /// Tells whether a measured road lies at a point.
+    bool is_measured(const PixelPoint& at) const;
+
 private:
+    std::uint8_t road_at(const PixelPoint& at) const;
     void mark(const NamedPart& part);
 
     double square_px_;

@@ -243,8 +243,7 @@ std::vector<BaseLine> base_lines_of(const LabelPath& road,
 
 /// Text of a road, if it may fit.
 std::optional<LabelSubject>
-road_subject(const NamedPart& road, const LabelConfig& config, TypeSetter& setter) {
-    const bool is_number = is_road_number(road.name);
+road_subject(const NamedPart& road, bool is_number, const LabelConfig& config, TypeSetter& setter) {
     const double size = is_number ? shield_size : size_of_rank[std::size_t(road.rank)];
     const TextLook look{std::max(config.min_size_px, config.size_px * size), is_number};
     LabelPath path{road.line};
@@ -269,17 +268,32 @@ road_subject(const NamedPart& road, const LabelConfig& config, TypeSetter& sette
 }
 
 /// Adds the labels of roads, the important roads first; numbers before names.
+///
+/// \param numbered  the same roads with their numbers as names
 void add_road_tasks(const std::vector<NamedPart>& parts,
+                    const std::vector<NamedPart>& numbered,
                     const LabelConfig& config,
                     TypeSetter& setter,
                     std::deque<LabelSubject>& subjects,
                     std::vector<LabelTask>& tasks) {
-    auto roads = named_chains(parts);
-    std::ranges::stable_sort(roads, {}, [](const NamedPart& road) {
-        return std::tuple{!is_road_number(road.name), road.quiet, road.rank, -length_px(road.line)};
+    struct Road {
+        NamedPart road;
+        bool is_number;
+    };
+    std::vector<Road> roads;
+    for (auto& road : named_chains(numbered)) {
+        roads.push_back({std::move(road), true});
+    }
+    for (auto& road : named_chains(parts)) {
+        const bool is_number = is_road_number(road.name);
+        roads.push_back({std::move(road), is_number});
+    }
+    std::ranges::stable_sort(roads, {}, [](const Road& each) {
+        const auto& road = each.road;
+        return std::tuple{!each.is_number, road.quiet, road.rank, -length_px(road.line)};
     });
-    for (const auto& road : roads) {
-        auto subject = road_subject(road, config, setter);
+    for (const auto& [road, is_number] : roads) {
+        auto subject = road_subject(road, is_number, config, setter);
         if (!subject) {
             continue;
         }
@@ -290,6 +304,18 @@ void add_road_tasks(const std::vector<NamedPart>& parts,
             tasks.push_back({&subjects.back(), (i + 0.5) * length / count, length / count / 2});
         }
     }
+}
+
+/// Returns the parts of numbered roads, with their numbers as names.
+std::vector<NamedPart> numbered_parts(std::span<const RoadName> roads, const LabelCell& cell) {
+    std::vector<RoadName> numbered;
+    for (const auto& road : roads) {
+        if (!road.number.empty()) {
+            numbered.push_back(road);
+            numbered.back().name = road.number;
+        }
+    }
+    return parts_in(numbered, cell.box);
 }
 
 } // namespace
@@ -343,7 +369,7 @@ std::vector<Label> placed_labels(std::span<const RoadName> roads,
             tasks.push_back({&subjects.back()});
         }
     }
-    add_road_tasks(parts, config, setter, subjects, tasks);
+    add_road_tasks(parts, numbered_parts(roads, cell), config, setter, subjects, tasks);
     Placing placing{cell, config, parts};
     std::vector<LabelTask> homeless;
     for (const auto& task : tasks) {

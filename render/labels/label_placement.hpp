@@ -17,6 +17,7 @@ namespace macadam {
 struct RoadName {
     std::vector<PixelPoint> line;
     std::string name;         ///< "": no label, but other labels avoid the line
+    std::string number{};     ///< of the road, for shields beside those of names that are numbers
     int rank = 0;             ///< 0 motorway .. 5 service: priority of the label
     bool quiet = false;       ///< road without a measurement: placed last, in lighter ink
     double half_width_px = 0; ///< of the road as painted
@@ -27,7 +28,8 @@ struct PointName {
     PixelPoint at;
     std::string name;
     TextLook look;
-    double symbol_px = 0; ///< radius of its symbol, beside which the name stands; 0: none
+    double symbol_px = 0;           ///< radius of its symbol, beside which the name stands; 0: none
+    bool may_cover_measured = true; ///< measured roads, if no position is free of them
 };
 
 /// Part of the plane with independent labels: every label lies completely inside one cell and
@@ -84,8 +86,9 @@ bool is_road_number(std::string_view name);
 /// Places names in a cell, the important ones first: places; numbers of roads, upright in frames on
 /// them; then main roads and longer ones before others.
 ///
-/// * The name of a place is centred on it, or stands in one of eight positions around it, the best
-///   of which is to its upper right, where it covers the fewest roads.
+/// * The name of a place is centred on it, or stands in one of eight positions around it, close to
+///   it or farther away, the best of which is to its upper right: where it covers no measured road,
+///   if there is such a position, and the fewest others.
 /// * The name of a road runs along it and across its junctions, as far as roads of the same name
 ///   continue each other: beside the line (which stays visible), never upside down, where the road
 ///   is straight enough for the letters, off the middles of junctions. It is repeated along long

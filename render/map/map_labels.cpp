@@ -28,10 +28,13 @@ struct PlaceLook {
     bool bold;
     double to_scale; ///< shown down to it
 };
+constexpr int last_of_towns = 1; // of the ranks of places
 constexpr std::array place_looks{PlaceLook{20, true, 1e9},
                                  PlaceLook{16, true, 2e6},
                                  PlaceLook{12.5, true, 3e5},
                                  PlaceLook{11, true, 7.5e4}};
+constexpr PlaceLook marked_look{12.5, true, 1e12};
+constexpr double marked_px = 6;
 
 /// Returns the names of places at a scale, the important ones first. Names of areas are centred on
 /// them; where the map is too small to show areas, a symbol marks the place.
@@ -44,11 +47,15 @@ std::vector<PointName> point_names(const MapScene& scene,
     std::vector<PointName> names;
     for (const auto& place : places) {
         const auto& [size, bold, to_scale] =
-            place_looks[std::size_t(std::clamp(place.rank, 0, int(place_looks.size()) - 1))];
+            place.is_marked
+                ? marked_look
+                : place_looks[std::size_t(std::clamp(place.rank, 0, int(place_looks.size()) - 1))];
         if (scale_denominator <= to_scale) {
             names.push_back({.at = to_pixel(frame, place.at),
                              .name = place.name,
-                             .look = {std::max(min_label_px, size * paper_unit), bold}});
+                             .look = {std::max(min_label_px, size * paper_unit), bold},
+                             .symbol_px = place.is_marked ? marked_px * paper_unit : 0,
+                             .may_cover_measured = place.rank <= last_of_towns});
         }
     }
     return names;
@@ -82,8 +89,10 @@ std::vector<RoadName> road_names(std::span<const MapLine> lines,
     std::vector<RoadName> names;
     names.reserve(lines.size());
     for (const auto& line : lines) {
+        const bool has_label = is_named(line);
         RoadName road{.line = {},
-                      .name = is_named(line) ? line.name : "",
+                      .name = has_label && line.name != line.number ? line.name : "",
+                      .number = has_label ? line.number : "",
                       .rank = std::clamp(line.rank, 0, 5),
                       .quiet = line.iri_class < 0,
                       .half_width_px = painted_half_width_px(widths, line)};

@@ -147,7 +147,36 @@ int rows_of_band(const PictureSize& size) {
 MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
     : scene_{std::move(scene)}, style_{std::move(style)}, size_{checked(size)},
       layout_{layout_of(scene_, size_, setter_)} {
+    plan_insets();
     set_roads(std::move(scene_.lines), std::move(scene_.events));
+}
+
+void MapPlan::plan_insets() {
+    if (scene_.insets.empty()) {
+        return;
+    }
+    const auto locator = locator_scene(scene_);
+    const auto divided = inset_layout(layout_, scene_.insets.size());
+    if (!divided) { // too small: one map of all
+        scene_.box = locator.box;
+        scene_.insets.clear();
+        return;
+    }
+    layout_.whole_map = divided->map;
+    inset_boxes_ = divided->boxes;
+    auto style = style_;
+    style.legend = false;
+    const auto add = [&](MapScene scene, const PixelBox& box) {
+        insets_.emplace_back(std::move(scene),
+                             style,
+                             PictureSize{.width_px = int(box.width()),
+                                         .height_px = int(box.height()),
+                                         .px_per_inch = size_.px_per_inch});
+    };
+    for (std::size_t i = 0; i < scene_.insets.size(); ++i) {
+        add(inset_scene(scene_, scene_.insets[i]), inset_boxes_[i]);
+    }
+    add(locator, inset_boxes_.back());
 }
 
 void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events) {
@@ -179,7 +208,7 @@ const BackgroundLevel& MapPlan::background_level() const {
 
 void MapPlan::set_background(MapBackground background) {
     background_ = std::move(background);
-    scene_.places.clear();
+    std::erase_if(scene_.places, [](const MapPlace& place) { return !place.is_marked; });
     for (const auto& place : background_.places) {
         scene_.places.push_back(
             {.name = place.name, .rank = int(place.rank), .at = place.position});
@@ -218,8 +247,27 @@ double MapPlan::ground_width_m() const {
     return size_.width_px * metres_per_px(placement_.frame, size_.height_px / 2.0);
 }
 
+void MapPlan::draw_sheet(DrawTarget& target) {
+    const auto colours = palette(style_);
+    draw_events(target, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, colours);
+    draw_map_surround(target, layout_, placement_, style_, setter_);
+    if (!insets_.empty()) {
+        draw_inset_panel(target, layout_, inset_boxes_, colours);
+        draw_locator(target,
+                     scene_,
+                     inset_boxes_.back(),
+                     insets_.back().placement_.frame,
+                     layout_.unit,
+                     colours);
+    }
+}
+
 void MapPlan::draw(const TakeRows& take, const Progress& progress) {
     const auto colours = palette(style_);
+    std::vector<Image> insets;
+    for (auto& inset : insets_) {
+        insets.push_back(image_of(inset));
+    }
     const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
     RoadPainter painter{colours, class_colours(style_, classes_of(style_).classes.size())};
     auto ground = ground_of(scene_, style_, placement_.frame, size_);
@@ -249,48 +297,54 @@ void MapPlan::draw(const TakeRows& take, const Progress& progress) {
                 draw_labels(canvas, {&label, 1}, {}, label_inks(colours), setter_);
             }
         }
-        draw_events(
-            canvas, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, colours);
-        draw_map_surround(canvas, layout_, placement_, style_, setter_);
+        for (std::size_t i = 0; i < insets.size(); ++i) {
+            canvas.lay(insets[i], int(inset_boxes_[i].left), int(inset_boxes_[i].top));
+        }
+        draw_sheet(canvas);
         take(std::move(canvas).finished().rgb);
         progress(std::size_t(top_px + count), std::size_t(size_.height_px));
     }
 }
 
-std::string MapPlan::pdf(const PdfSheet& sheet) {
+void MapPlan::draw_on(PdfPage& page) {
     const auto theme = palette(style_);
     const auto colours = class_colours(style_, classes_of(style_).classes.size());
     const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
     const auto labels =
         map_labels(scene_, style_, layout_, placement_, roads.widths, scale(), setter_);
     const auto base = ground_of(scene_, style_, placement_.frame, size_);
-    return pdf_file(sheet, [&](PdfPage& page) {
-        page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
-        page.fill({layout_.map}, theme.ground);
-        page.begin_clip(layout_.map);
-        if (base) {
-            page.lay(part_of(layout_.map), base(part_of(layout_.map)));
-        } else {
-            draw_background(
-                page,
-                shown_background(background_.tiles, scene_.box, placement_.frame, layout_),
-                style_.theme);
-        }
-        if (base || !background_.tiles.empty()) {
-            draw_unmeasured_edges(page, roads.strands, roads.widths, theme.ground);
-        }
-        draw_roads(page, roads.strands, roads.widths, theme, colours);
+    page.fill({{0, 0, double(size_.width_px), double(size_.height_px)}}, theme.page);
+    page.fill({layout_.map}, theme.ground);
+    page.begin_clip(layout_.map);
+    if (base) {
+        page.lay(part_of(layout_.map), base(part_of(layout_.map)));
+    } else {
+        draw_background(page,
+                        shown_background(background_.tiles, scene_.box, placement_.frame, layout_),
+                        style_.theme);
+    }
+    if (base || !background_.tiles.empty()) {
+        draw_unmeasured_edges(page, roads.strands, roads.widths, theme.ground);
+    }
+    draw_roads(page, roads.strands, roads.widths, theme, colours);
+    page.end_clip();
+    draw_labels(page, labels, label_inks(theme), setter_);
+    for (std::size_t i = 0; i < insets_.size(); ++i) {
+        page.begin_part(inset_boxes_[i]);
+        insets_[i].draw_on(page);
         page.end_clip();
-        draw_labels(page, labels, label_inks(theme), setter_);
-        draw_events(page, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, theme);
-        draw_map_surround(page, layout_, placement_, style_, setter_);
-    });
+    }
+    draw_sheet(page);
+}
+
+std::string MapPlan::pdf(const PdfSheet& sheet) {
+    return pdf_file(sheet, [&](PdfPage& page) { draw_on(page); });
 }
 
 std::vector<PictureSize> other_shapes(const PictureSize& size) {
     const double area_px = double(size.width_px) * size.height_px;
     std::vector<PictureSize> sizes;
-    for (const double shape : {3.0, 2.0, 1.5, 1.0, 1 / 1.5, 1 / 2.0, 1 / 3.0}) {
+    for (const double shape : {1.2, 1.5, 1.0, 1 / 1.5, 2.0, 1 / 2.0, 3.0, 1 / 3.0}) {
         auto& other = sizes.emplace_back(size);
         other.width_px = int(std::lround(std::sqrt(area_px * shape)));
         other.height_px = int(std::lround(std::sqrt(area_px / shape)));
@@ -311,10 +365,10 @@ PictureSize size_for(const MapScene& scene,
     };
     auto best = usual;
     double least = empty(usual);
-    if (least < much) {
-        return usual;
-    }
     for (const auto& other : others) {
+        if (least < much) {
+            break;
+        }
         if (const double share = empty(other); share < least) {
             least = share;
             best = other;

@@ -5,6 +5,7 @@
 #include "mapping/background/background_pieces.hpp"
 #include "render/canvas/pdf_page.hpp"
 #include "render/map/layout.hpp"
+#include "render/map/map_insets.hpp"
 #include "render/map/map_surround.hpp"
 #include "render/scene/scene.hpp"
 #include "render/text/text_shaping.hpp"
@@ -52,6 +53,16 @@ public:
     /// Sets what lies below the roads of the ground.
     void set_background(MapBackground background);
 
+    /// Returns the maps of the scene's insets, which need roads and background of their own.
+    std::span<MapPlan> insets() {
+        return insets_.empty() ? std::span<MapPlan>{}
+                               : std::span{insets_}.first(insets_.size() - 1);
+    }
+
+    /// Returns the map around all parts of the data, which needs a background alone; null without
+    /// insets.
+    MapPlan* locator() { return insets_.empty() ? nullptr : &insets_.back(); }
+
     /// Returns the share of the sheet without text, legend or data, 0 to 1.
     double empty_share() const { return macadam::empty_share(scene_, layout_, placement_); }
 
@@ -84,6 +95,10 @@ public:
     std::string pdf(const PdfSheet& sheet);
 
 private:
+    void plan_insets();
+    void draw_on(PdfPage& page);
+    void draw_sheet(DrawTarget& target);
+
     MapScene scene_;
     MapStyle style_;
     PictureSize size_;
@@ -91,13 +106,16 @@ private:
     Layout layout_;
     MapBackground background_;
     Placement placement_;
+    std::vector<MapPlan> insets_{};       ///< the last is the locator
+    std::vector<PixelBox> inset_boxes_{}; ///< on the sheet
 };
 
-/// Returns sizes of about the same area, from three times as wide as high to the reverse.
+/// Returns sizes of about the same area, up to three times as wide as high and the reverse, the
+/// usual shapes first.
 std::vector<PictureSize> other_shapes(const PictureSize& size);
 
-/// Returns the size for a scene without lines: `usual` if less than a third of the sheet would be
-/// empty, or else that of all which leaves the least empty.
+/// Returns the size for a scene without lines: the first, beginning with `usual`, that leaves less
+/// than a third of the sheet empty, or else that which leaves the least empty.
 PictureSize size_for(const MapScene& scene,
                      const MapStyle& style,
                      const PictureSize& usual,

@@ -250,8 +250,7 @@ Placement placement_of(const MapScene& scene,
 
 double empty_share(const MapScene& scene, const Layout& layout, const Placement& placement) {
     const double sheet = layout.width_px * layout.scale_room.bottom;
-    const double texts = layout.width_px * (layout.whole_map.top + layout.scale_room.bottom -
-                                            layout.whole_map.bottom);
+    const double around = sheet - layout.whole_map.width() * layout.whole_map.height();
     const auto overlap_of = [](const PixelBox& a, const PixelBox& b) {
         return std::max(0.0, std::min(a.right, b.right) - std::max(a.left, b.left)) *
                std::max(0.0, std::min(a.bottom, b.bottom) - std::max(a.top, b.top));
@@ -271,7 +270,7 @@ double empty_share(const MapScene& scene, const Layout& layout, const Placement&
                         corner.y + placement.card.height_px};
     const double filled =
         overlap_of(data, layout.map) + overlap_of(card, layout.whole_map) - overlap_of(card, data);
-    return 1 - (texts + filled) / sheet;
+    return 1 - (around + filled) / sheet;
 }
 
 void draw_map_surround(DrawTarget& canvas,

@@ -31,6 +31,7 @@ struct MapLine {
     bool certain = true;     ///< false: few passes or a wide interval, drawn thinner
     bool few_passes = false; ///< fewer than required: grey in a casing, regardless of class
     std::string name;        ///< of the road, for its label
+    std::string number{};    ///< of the road, for shields, such as "A 9"
 
     /// From which the class follows; NaN: none, the class alone counts.
     double iri_mm_per_m = std::numeric_limits<double>::quiet_NaN();
@@ -48,6 +49,13 @@ struct MapPlace {
     std::string name;
     int rank = 0; ///< 0 city, 1 town, 2 village, 3 suburb: size and priority of the name
     GeoPoint at;
+    bool is_marked = false; ///< by something at its position, beside which its name stands
+};
+
+/// Part of the data far off the others, on a map of its own beside the main one.
+struct MapInset {
+    GeoBox box;
+    std::string name; ///< of a place in it, or ""
 };
 
 struct MapStyle {
@@ -75,6 +83,8 @@ struct MapScene {
     std::vector<MapLine> lines;
     std::vector<MapEvent> events{}; ///< drawn over the roads, with entries in the legend
     std::vector<MapPlace> places{}; ///< named on the map, as far as there is room
+    std::vector<MapInset> insets{}; ///< far-off parts of the data, at scales of their own
+    std::string place{};            ///< name of a place in the box, for the locator of insets
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
     std::string attribution;      ///< copyright notice

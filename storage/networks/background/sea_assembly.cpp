@@ -268,6 +268,12 @@ Clipped clipped(const Chains& chains, const ClipBox& box) {
     return parts;
 }
 
+bool meets(const Chains& chains, const ClipBox& box) {
+    return std::ranges::any_of(chains.open, [&](const Line& line) {
+        return std::ranges::any_of(line, [&](const Spot& spot) { return is_inside(spot, box); });
+    });
+}
+
 /// Joins pieces along the border: from the end of each on to the start of the next, clockwise,
 /// since the sea is on its right. `std::nullopt` if two starts or two ends follow each other.
 std::optional<std::vector<Line>> joined_along(const Border& border, std::vector<Line> pieces) {
@@ -335,6 +341,9 @@ Sea assemble_sea(std::span<const PlacedWay> coast, const GeoBox& bounds, const G
     const Border border{box, around};
     auto parts = clipped(chains, box);
     const bool is_crossed = !parts.crossing.empty();
+    if (!is_crossed && parts.rings.empty() && meets(chains, clip_box(bounds))) {
+        return broken; // the ends of coasts have cut all of them off
+    }
     auto outer = joined_along(border, std::move(parts.crossing));
     if (!outer) {
         return broken;

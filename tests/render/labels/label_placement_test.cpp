@@ -380,4 +380,46 @@ TEST(LabelPlacement, MovesALabelAsideForOneWithoutRoom) {
     EXPECT_GT(after, before);
 }
 
+constexpr PixelPoint middle{512 + 256, 1024 + 256};
+
+/// Places labels in a cell with one place in its middle.
+std::vector<Label> around_place(const std::vector<RoadName>& roads, const PointName& place) {
+    TypeSetter setter;
+    return placed_labels(roads, {&place, 1}, cell, {}, setter);
+}
+
+TEST(LabelPlacement, KeepsPlacesOffMeasuredRoadsWhereAPositionIsFree) {
+    const PointName town{.at = middle, .name = "Schaan", .look = {14, true}};
+    const auto through = road("", {{0, 256}, {512, 256}});
+    const auto beside = around_place({through}, town);
+    ASSERT_EQ(beside.size(), 1U);
+    for (const auto& letter : beside[0].letters) {
+        for (const auto& point : letter) {
+            EXPECT_GT(std::abs(point.y - middle.y), 2) << "on the road";
+        }
+    }
+    const auto alone = around_place({}, town);
+    ASSERT_EQ(alone.size(), 1U);
+    EXPECT_NEAR((alone[0].box.left + alone[0].box.right) / 2, middle.x, 3);
+}
+
+TEST(LabelPlacement, LeavesVillagesOutWhereMeasuredRoadsAreEverywhere) {
+    std::vector<RoadName> roads;
+    for (int i = 0; i < 64; ++i) {
+        roads.push_back(road("", {{0, 8.0 * i}, {512, 8.0 * i}}));
+    }
+    PointName place{.at = middle, .name = "Dorf", .look = {14, true}, .may_cover_measured = false};
+    EXPECT_TRUE(around_place(roads, place).empty());
+}
+
+TEST(LabelPlacement, PutsTheNumberOfARoadInAShieldBesideItsName) {
+    auto named = road("Landstraße", {{10, 100}, {500, 100}}, 1);
+    named.number = "L 191";
+    const auto labels = around_place({named}, {.at = middle, .name = "", .look = {14, true}});
+    ASSERT_EQ(labels.size(), 2U);
+    const auto shields = std::ranges::count_if(labels, &Label::is_shield);
+    EXPECT_EQ(shields, 1);
+    EXPECT_EQ(std::ranges::find_if(labels, &Label::is_shield)->name, "L 191");
+}
+
 } // namespace macadam::testing

@@ -1,5 +1,6 @@
 #include "render/map/legend.hpp"
 #include "render/map/map_plan.hpp"
+#include "render/scene/colour.hpp"
 
 #include <gmock/gmock.h>
 
@@ -94,6 +95,19 @@ std::vector<Shape> shapes() {
             outline_of_a_country()};
 }
 
+/// Two towns of 4 km, 100 km apart, as the program gives them to the map: the larger as the main
+/// one.
+MapScene two_towns() {
+    auto scene = sheet(4000, 4000);
+    const auto south_west = at(98'000, 58'000);
+    const auto north_east = at(102'000, 62'000);
+    scene.insets.push_back(
+        {{south_west.lon_deg, south_west.lat_deg, north_east.lon_deg, north_east.lat_deg},
+         "Nebenstadt"});
+    scene.place = "Hauptstadt";
+    return scene;
+}
+
 } // namespace
 
 TEST(Sheet, IsNeverEmptyForAThirdInAShapeThatSuitsTheData) {
@@ -147,6 +161,43 @@ TEST(Sheet, PutsAWideLegendWhereOnlyAFlatStripIsFree) {
     EXPECT_GT(placement.card.columns, 1);
     const auto without = placement_of(wide, {}, layout, setter);
     EXPECT_EQ(placement.frame.px_per_rad, without.frame.px_per_rad); // no smaller map
+}
+
+TEST(Sheet, ShowsFarOffPartsAtScalesOfTheirOwnBesideALocator) {
+    MapPlan plan{two_towns(), {}, usual};
+    ASSERT_EQ(plan.insets().size(), 1U);
+    auto& inset = plan.insets()[0];
+    EXPECT_EQ(inset.scene().title, "Nebenstadt");
+    EXPECT_TRUE(inset.scene().scale_bar);
+    EXPECT_LT(inset.scale(), 100'000);
+    EXPECT_LT(plan.scale(), 50'000); // the main town fills its map
+    ASSERT_NE(plan.locator(), nullptr);
+    EXPECT_GT(plan.locator()->scale(), 500'000);
+    EXPECT_THAT(plan.locator()->scene().places, ::testing::SizeIs(2));
+    EXPECT_LT(plan.empty_share(), 1.0 / 3);
+
+    const auto ground = inset.ground();
+    EXPECT_GT(ground.west_deg, at(60'000, 0).lon_deg); // its roads alone
+    inset.set_roads({street(at(98'500, 60'000), at(101'500, 60'000))});
+    plan.set_roads({street(at(-1500, 0), at(1500, 0))});
+    const auto road = class_colours({}, 3)[1];
+    std::vector<std::uint8_t> rgb;
+    plan.draw([&](auto rows) { rgb.insert(rgb.end(), rows.begin(), rows.end()); });
+    int left = 0;
+    int right = 0;
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        const bool is_road =
+            (std::uint32_t{rgb[i]} << 16U | std::uint32_t{rgb[i + 1]} << 8U | rgb[i + 2]) == road;
+        (i / 3 % 1600 < 1120 ? left : right) += is_road ? 1 : 0;
+    }
+    EXPECT_GT(left, 500); // of the legend too
+    EXPECT_GT(right, 500);
+}
+
+TEST(Sheet, IsOneMapWhereInsetsWouldBeTooSmall) {
+    const MapPlan small{two_towns(), {}, {.width_px = 700, .height_px = 520}};
+    EXPECT_GT(small.scale(), 100'000);
+    EXPECT_TRUE(small.scene().insets.empty());
 }
 
 } // namespace macadam::testing
