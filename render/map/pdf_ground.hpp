@@ -1,13 +1,20 @@
 #pragma once
 
+#include "render/background/background_shapes.hpp"
 #include "render/canvas/pdf_page.hpp"
 #include "render/roads/line_widths.hpp"
 #include "render/scene/colour.hpp"
+#include "render/scene/scene.hpp"
 
 #include <cstdint>
 #include <span>
 
 namespace macadam {
+
+/// Fills shapes on a page, all of a kind as one path, so that viewers show no seams within it.
+///
+/// \param shapes  sorted by kind
+void draw_background(PdfPage& page, std::span<const BackgroundShape> shapes, MapStyle::Theme theme);
 
 /// Draws the roads as lines on a page, in the painting order of painted_roads, so that the page
 /// looks like the picture.

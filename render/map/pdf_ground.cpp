@@ -1,5 +1,6 @@
-#include "render/map/pdf_roads.hpp"
+#include "render/map/pdf_ground.hpp"
 
+#include "render/background/background_painter.hpp"
 #include "render/roads/road_polylines.hpp"
 
 #include <algorithm>
@@ -78,6 +79,19 @@ std::uint64_t looks_of(std::size_t classes, bool certain) {
 }
 
 } // namespace
+
+void draw_background(PdfPage& page,
+                     std::span<const BackgroundShape> shapes,
+                     MapStyle::Theme theme) {
+    std::vector<std::span<const PixelPoint>> rings;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        rings.insert(rings.end(), shapes[i].rings.begin(), shapes[i].rings.end());
+        if (i + 1 == shapes.size() || shapes[i + 1].kind != shapes[i].kind) {
+            page.fill_rings(rings, background_colour(shapes[i].kind, theme));
+            rings.clear();
+        }
+    }
+}
 
 void draw_unmeasured_edges(PdfPage& page,
                            std::span<const Polyline> lines,
