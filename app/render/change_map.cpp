@@ -116,8 +116,9 @@ MapPlan load_change_map(const StoreReader& store, MapRequest request, std::int64
     const auto day = utc_day(since_ms);
     set_words(request.style.words, day);
     request.style.classes = &change_classes();
-    request.style.ramp = MapStyle{}.ramp; // diverging, safe for colour-blind readers
-    request.style.own_ramp = {0x2c7bb6, 0xf7f7f7, 0xd7191c}; // the middle is neutral
+    // ColorBrewer 2.0 by Cynthia A. Brewer, "RdBu": diverging, apart for every sight and in
+    // greyscale; the middle is neutral.
+    request.style.own_ramp = {0x67a9cf, 0xf7f7f7, 0xb2182b};
     const auto compared = [&](const SegmentFilter& filter) {
         auto states = compare_since(store, roads, filter, since_ms);
         if (states.before.empty() && states.since.empty()) {

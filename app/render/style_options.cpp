@@ -3,6 +3,7 @@
 #include "app/database/segment_options.hpp"
 #include "app/output/units_option.hpp"
 #include "estimator/common/error.hpp"
+#include "mapping/style/print_ramp.hpp"
 #include "render/scene/style_check.hpp"
 #include "storage/settings/database_appearance.hpp"
 #include "storage/settings/style_file.hpp"
@@ -80,6 +81,9 @@ MapStyle style_of(MapLook look) {
         style.ramp = *look.ramp;
     }
     style.own_ramp = std::move(look.own_ramp);
+    if (style.theme == MapStyle::Theme::print && !look.ramp && style.own_ramp.empty()) {
+        style.own_ramp.assign(print_ramp.begin(), print_ramp.end());
+    }
     style.colours = look.colours;
     style.lines = look.lines;
     style.min_passes = look.min_passes.value_or(1);

@@ -1,6 +1,7 @@
 #include "render/scene/colour.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/style/print_ramp.hpp"
 #include "render/scene/colour_difference.hpp"
 #include "render/scene/style_check.hpp"
 
@@ -154,6 +155,21 @@ TEST(Colour, ClassesStayApartForEveryKindOfColourBlindness) {
                           10)
                     << ramp.name << ' ' << table.name;
             }
+        }
+    }
+}
+
+TEST(Colour, ClassesInPrintStayApartInShadesOfGreyAndForEverySight) {
+    const MapStyle style{.own_ramp = {print_ramp.begin(), print_ramp.end()}};
+    for (const auto& table : class_tables()) {
+        const auto colours = class_colours(style, table.classes.size());
+        ASSERT_GE(colours.size(), 3U);
+        for (std::size_t i = 1; i < colours.size(); ++i) {
+            EXPECT_GT(lab_of(linear(colours[i - 1]))[0] - lab_of(linear(colours[i]))[0], 10)
+                << table.name << ' ' << i; // lightness of 100; 10 is told apart side by side
+        }
+        for (const auto& deficiency : deficiencies) {
+            EXPECT_GE(min_difference(deficiency, colours), 10) << table.name;
         }
     }
 }
