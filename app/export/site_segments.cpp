@@ -11,11 +11,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -134,8 +138,23 @@ SegmentKey last_of(const SegmentRange& range) {
 /// What has changed since an earlier site, and where its unchanged files are.
 class Changes {
 public:
-    explicit Changes(const EarlierSite& earlier) : earlier_{&earlier}, changed_{earlier.changed} {
+    Changes(const EarlierSite& earlier, const std::vector<std::string>& months)
+        : earlier_{&earlier}, changed_{earlier.changed} {
         std::ranges::sort(changed_, {}, first_of);
+        for (const auto& month : earlier.segments.months) {
+            numbers_.push_back(std::ranges::lower_bound(months, month) - months.begin());
+        }
+    }
+
+    /// Takes over the months of a tile without changes, which may have other numbers now. Without
+    /// dated passes there is no file.
+    void take_compare_file(const std::string& name, const SiteFolder& folder) const {
+        const auto file = earlier_->folder / name;
+        if (numbers_.empty() || numbers_.back() + 1 == std::ssize(numbers_)) {
+            folder.take(file, name);
+        } else if (std::ifstream in{file, std::ios::binary}; in) {
+            folder.write(name, renumbered({std::istreambuf_iterator<char>{in}, {}}));
+        }
     }
 
     bool touch(const SegmentKey& first, const SegmentKey& last) const {
@@ -155,11 +174,29 @@ public:
                        : std::nullopt;
     }
 
-    const std::filesystem::path& folder() const { return earlier_->folder; }
-
 private:
+    /// Replaces the number of the month at the beginning of each row.
+    std::string renumbered(const std::string& text) const {
+        std::string result;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            result += text[i];
+            if (text[i] != '[') {
+                continue;
+            }
+            std::size_t number = 0;
+            const auto* const begin = text.data() + i + 1;
+            const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
+            if (error == std::errc{} && number < numbers_.size()) {
+                result += std::to_string(numbers_[number]);
+                i += static_cast<std::size_t>(end - begin);
+            }
+        }
+        return result;
+    }
+
     const EarlierSite* earlier_;
     std::vector<SegmentRange> changed_;
+    std::vector<std::ptrdiff_t> numbers_; ///< of the earlier months in the new list
 };
 
 /// Writes the files of tiles with changed segments, and takes over the others.
@@ -188,15 +225,9 @@ void update_compare_files(const StoreReader& store,
     compare.finish();
     for (const auto& [name, changed] : files) {
         if (!changed) {
-            folder.take(changes.folder() / name, name); // without dated passes there is none
+            changes.take_compare_file(name, folder);
         }
     }
-}
-
-/// Tests whether the earlier months have the same numbers in the list of all.
-bool begin_with(const std::vector<std::string>& months, const std::vector<std::string>& earlier) {
-    return earlier.size() <= months.size() &&
-           std::equal(earlier.begin(), earlier.end(), months.begin());
 }
 
 /// Tests whether a shard may end before a key, for one of 128 at random.
@@ -239,8 +270,8 @@ SiteSegments write_segments(const StoreReader& store,
                             const Progress& progress) {
     const auto& classes = *class_table(store.settings().class_table);
     std::optional<Changes> changes;
-    if (earlier != nullptr && begin_with(months, earlier->segments.months)) {
-        changes.emplace(*earlier);
+    if (earlier != nullptr && std::ranges::includes(months, earlier->segments.months)) {
+        changes.emplace(*earlier, months);
     }
     SiteSegments made{shards_of(records), months};
     std::vector<std::string> first_keys;

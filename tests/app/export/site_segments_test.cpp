@@ -93,21 +93,23 @@ TEST(SiteSegments, AreTheSameFilesWithAnEarlierSiteAndWithout) {
         const auto records = measured(store);
         return write_segments(store, {}, records, months, {place, place}, earlier, {});
     };
-    const auto import_drive = [&](int number) {
+    const auto import_drive = [&](int number, int day) {
         auto trip = trip_record(number);
-        trip.t0_utc_ms = 1'767'225'600'000 + 86'400'000LL * number; // January 2026 and on
+        trip.t0_utc_ms = 1'767'225'600'000 + 86'400'000LL * day; // from 1 January 2026
         ASSERT_TRUE(add_trip(store, trip, drive(keys, number)));
         store.importer.refresh();
     };
-    import_drive(0);
+    import_drive(0, 0);
     std::vector<std::string> months{"2026-01"};
     EarlierSite earlier{folder / "0", write("0", months, nullptr), {}};
     ASSERT_GT(earlier.segments.shards.size(), 5U);
     for (int number = 1; number <= 4; ++number) {
         const auto moment = store.moment();
-        import_drive(number * 12);
+        import_drive(number, number == 4 ? -10 : number * 12);
         if (number == 3) {
             months.emplace_back("2026-02");
+        } else if (number == 4) { // of a log that comes late: all others have other numbers
+            months.insert(months.begin(), "2025-12");
         }
         earlier.changed = store.changed_since(moment).value();
         ASSERT_FALSE(earlier.changed.empty());
