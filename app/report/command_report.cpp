@@ -288,7 +288,7 @@ void refuse_rows(const Arguments& arguments) {
 /// Adds the photos of a folder to a report, and tells of those that it does not show.
 void put_photos(const std::filesystem::path& folder, Report& report, const Console& console) {
     constexpr std::size_t max_lines = 20;
-    const auto counts = add_photos(folder, report.worst, console.progress("reading photos"));
+    const auto counts = add_photos(folder, report, console.progress("reading photos"));
     for (const auto& line : counts.skipped | std::views::take(max_lines)) {
         console.warn("skipped: " + line);
     }
@@ -372,7 +372,8 @@ constexpr std::array page_options{
     Option{"--worst", "N", "Number of worst sections to list, each with a map.", "20"},
     Option{"--photos",
            "FOLDER",
-           "Show its JPEG photos at the worst sections, by the GPS position in each (EXIF): the 3 "
+           "Show its JPEG photos at the worst sections and along a strip chart, by the GPS "
+           "position in each (EXIF): the 3 "
            "nearest within 30 m, reduced, without names of people or devices. They may show "
            "people: look at them before you publish."},
     in_group("sections",

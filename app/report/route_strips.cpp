@@ -220,8 +220,10 @@ std::vector<Strip> route_strips(const StoreReader& store,
     const double strip_m = whole_m / static_cast<double>(count);
     std::vector<Strip> strips;
     for (std::size_t i = 0; i < count; ++i) {
-        strips.push_back(
-            part_of(whole, strip_m * static_cast<double>(i), strip_m * static_cast<double>(i + 1)));
+        const double from_m = strip_m * static_cast<double>(i);
+        const double to_m = strip_m * static_cast<double>(i + 1);
+        strips.push_back(part_of(whole, from_m, to_m));
+        strips.back().line = line_of(roads, route, from_m, to_m);
     }
     return strips;
 }

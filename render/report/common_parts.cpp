@@ -99,6 +99,18 @@ std::string passes_text(const Localisation& wording, std::int32_t least, double 
                            : fmt::format("{} – {}", least, wording.shortest(median));
 }
 
+document::Photo photo_of(const Report& report, const ReportPhoto& photo, const std::string& road) {
+    const auto& say = report.wording;
+    const auto distance = say.short_length(photo.distance_m);
+    return {photo.jpeg,
+            photo.width_px,
+            photo.height_px,
+            say("photo.words", {{"road", road}}),
+            photo.day.empty()
+                ? say("photo.undated", {{"distance", distance}})
+                : say("photo", {{"day", say.day(photo.day)}, {"distance", distance}})};
+}
+
 document::MapFigure map_figure(const Report& report,
                                const ReportPicture& picture,
                                double width_m,

@@ -38,6 +38,10 @@ std::string reference_text(const Report& report, const WorstSection& stretch);
 /// Returns "2", or "2 – 5": minimum and median per segment.
 std::string passes_text(const Localisation& wording, std::int32_t least, double median);
 
+/// Builds a photo with its caption.
+/// \param road  what it shows
+document::Photo photo_of(const Report& report, const ReportPhoto& photo, const std::string& road);
+
 /// Builds the map figure, with a scale bar that keeps its relative length at any size of the
 /// picture.
 document::MapFigure map_figure(const Report& report,

@@ -308,6 +308,10 @@ std::string photos_html(const std::vector<Photo>& photos) {
     return html + "</div>\n";
 }
 
+std::string block_html(const Photos& photos) {
+    return photos_html(photos.photos);
+}
+
 std::string block_html(const Cards& cards) {
     std::string html = "<div class=\"cards\">\n";
     for (const auto& card : cards.cards) {

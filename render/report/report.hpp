@@ -52,20 +52,23 @@ struct StripSpan {
     std::string name;
 };
 
-/// Content of a strip chart.
-struct Strip {
-    double from_m, to_m;
-    std::vector<StripRow> rows;
-    std::vector<StripMark> marks{}; ///< by chainage
-    std::vector<StripSpan> spans{};
-};
-
 /// Photo of a road, reduced.
 struct ReportPhoto {
     std::vector<std::uint8_t> jpeg; ///< bytes of a file
     int width_px, height_px;
     std::string day;   ///< on which it was taken; "" = unknown
     double distance_m; ///< from the road
+    double at_m = 0;   ///< along the line at which it is shown, as in Strip
+};
+
+/// Content of a strip chart.
+struct Strip {
+    double from_m, to_m;
+    std::vector<StripRow> rows;
+    std::vector<StripMark> marks{}; ///< by chainage
+    std::vector<StripSpan> spans{};
+    std::vector<GeoPoint> line{};      ///< of the road, without its gaps
+    std::vector<ReportPhoto> photos{}; ///< by chainage
 };
 
 struct ReportStretch {

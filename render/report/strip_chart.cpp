@@ -247,6 +247,16 @@ DocumentSection strip_section(const Report& report) {
                                       say("unit.short"));
         section.blocks.emplace_back(
             strip_drawing(report, strip, strip_on_page, say("strip.words", {{"road", road}})));
+        Photos photos;
+        for (const auto& photo : strip.photos) {
+            photos.photos.push_back(photo_of(report, photo, road));
+            photos.photos.back().caption = say(
+                "strip.photo",
+                {{"at", say.short_length(photo.at_m)}, {"photo", photos.photos.back().caption}});
+        }
+        if (!photos.photos.empty()) {
+            section.blocks.emplace_back(std::move(photos));
+        }
     }
     section.blocks.emplace_back(std::move(table));
     return section;

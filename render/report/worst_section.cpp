@@ -62,18 +62,6 @@ void add_links(Card& card, const Report& report, const WorstSection& stretch) {
     }
 }
 
-Photo photo_of(const Report& report, const ReportPhoto& photo, const std::string& road) {
-    const auto& say = report.wording;
-    const auto distance = say.short_length(photo.distance_m);
-    return {photo.jpeg,
-            photo.width_px,
-            photo.height_px,
-            say("photo.words", {{"road", road}}),
-            photo.day.empty()
-                ? say("photo.undated", {{"distance", distance}})
-                : say("photo", {{"day", say.day(photo.day)}, {"distance", distance}})};
-}
-
 Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
     const auto& say = report.wording;
     const auto& stretch = of.stretch;

@@ -172,6 +172,11 @@ struct Photo {
     std::string caption;
 };
 
+/// Photos side by side.
+struct Photos {
+    std::vector<Photo> photos;
+};
+
 /// Small map with a description.
 struct Card {
     std::string id; ///< target of links
@@ -188,7 +193,7 @@ struct Cards {
 };
 
 using Block =
-    std::variant<Paragraph, Bullets, KeyNumbers, Table, Drawing, Legend, MapFigure, Cards>;
+    std::variant<Paragraph, Bullets, KeyNumbers, Table, Drawing, Legend, MapFigure, Photos, Cards>;
 
 struct DocumentSection {
     std::string title;

@@ -330,6 +330,13 @@ void put_card(PdfSheets& sheets, const Card& card, const CardLayout& of) {
 
 } // namespace
 
+void put(PdfSheets& sheets, const Photos& photos) {
+    const auto row = lay_out(sheets, photos.photos, sheets.width_pt());
+    sheets.need(std::min(row.height_pt, sheets.height_pt()));
+    put_photos(sheets, photos.photos, row, sheets.left_pt(), sheets.y_pt());
+    sheets.skip(row.height_pt + block_gap_pt);
+}
+
 void put(PdfSheets& sheets, const Cards& cards) {
     for (const auto& card : cards.cards) {
         const auto layout = lay_out(sheets, card);

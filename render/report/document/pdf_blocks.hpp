@@ -24,6 +24,7 @@ void put(PdfSheets& sheets, const document::Table& table);
 void put(PdfSheets& sheets, const document::Drawing& drawing);
 void put(PdfSheets& sheets, const document::Legend& legend);
 void put(PdfSheets& sheets, const document::MapFigure& map);
+void put(PdfSheets& sheets, const document::Photos& photos);
 void put(PdfSheets& sheets, const document::Cards& cards);
 void put(PdfSheets& sheets, const document::Overview& overview);
 

@@ -146,8 +146,8 @@ TEST_F(ReportProgram, ShowsPhotosAtTheWorstSectionsAndTellsOfTheOthers) {
         EXPECT_EQ(run.exit_status, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr("notes.txt: is not a JPEG"));
         EXPECT_THAT(run.err,
-                    HasSubstr("photos: 3 of 6 shown at worst sections, 1 farther than 30 m from "
-                              "all, 1 beyond the nearest 3 of a section, 1 skipped"));
+                    HasSubstr("photos: 3 of 6 shown, 1 farther than 30 m from all roads listed, 1 "
+                              "beyond the nearest 3 of a section or strip, 1 skipped"));
         EXPECT_THAT(run.err, HasSubstr("photos may show people and number plates"));
         return read_file(out(name));
     };
@@ -161,6 +161,21 @@ TEST_F(ReportProgram, ShowsPhotosAtTheWorstSectionsAndTellsOfTheOthers) {
     EXPECT_THAT(html, HasSubstr("Photo of 2026-03-12, 2 m from the road"));
     EXPECT_THAT(html, Not(HasSubstr("500-m")));
     EXPECT_THAT(shown_in("photos.pdf").substr(0, 5), "%PDF-");
+}
+
+TEST_F(ReportProgram, ShowsPhotosByChainageOnAStripChart) {
+    const auto photos = folder_ / "photos";
+    fs::create_directories(photos);
+    const auto place = place_on_road(5); // of a good road, so of no worst section
+    const auto comma = place.find(',');
+    write_photo_at(photos / "here.jpg",
+                   {std::stod(place.substr(0, comma)), std::stod(place.substr(comma + 1))});
+    const auto run = run_macadam(
+        {"report", store_, "-o", out("way.html"), "--way", "1", "--photos", photos.string()});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("photos: 1 of 1 shown\n"));
+    EXPECT_THAT(read_file(out("way.html")),
+                ::testing::ContainsRegex("At [0-9]+ m: Photo of 2026-03-12, 0 m from the road"));
 }
 
 TEST_F(ReportProgram, RefusesPhotosThatAreNoFolderBeforeItReadsAnything) {
