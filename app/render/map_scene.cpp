@@ -200,13 +200,13 @@ selected_states(const StoreReader& store, const SegmentFilter& filter, const Geo
 }
 
 /// Returns the numbers of roads by way. Of several the first counts, as on the largest sign; what
-/// is longer than numbers are is none.
+/// is longer than numbers are or has no figure, such as "FIXME", is none.
 std::unordered_map<std::int64_t, std::string> road_numbers(const StoreReader& store) {
     constexpr std::size_t longest = 10;
     std::unordered_map<std::int64_t, std::string> numbers;
     for (const auto& [way_id, ref] : StoreBackground{store}.road_refs()) {
         const auto first = ref.substr(0, ref.find(';'));
-        if (!first.empty() && first.size() <= longest) {
+        if (first.size() <= longest && first.find_first_of("0123456789") != std::string::npos) {
             numbers.emplace(way_id, first);
         }
     }
