@@ -3,9 +3,9 @@
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
-#include "storage/store/server/store_copy.hpp"
 
 #include <fmt/format.h>
 
@@ -64,12 +64,17 @@ ImportStore opened_for_import(const std::filesystem::path& store, const Console&
     return {store, StoreReader{open.image}, open.trips};
 }
 
-StoreReader
-opened_reader(const std::filesystem::path& file, const Console& console, Audience audience) {
+StoreReader opened_reader(const std::filesystem::path& file,
+                          const Console& console,
+                          Audience audience,
+                          const ServerNeed& need) {
     console.detail(fmt::format("reading {}", file.string()));
     if (is_server_address(file.string())) {
-        return StoreReader{open_server_moment(
-            file.string(), wait_policy_for(file, console), console.progress("reading drives"))};
+        return StoreReader{open_server_reader(file.string(),
+                                              need,
+                                              audience,
+                                              wait_policy_for(file, console),
+                                              console.progress("reading drives"))};
     }
     return StoreReader::open(file, wait_policy_for(file, console), audience);
 }

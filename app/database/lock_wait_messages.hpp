@@ -3,7 +3,8 @@
 #include "app/cli/console.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
 #include "storage/store/import_store.hpp"
-#include "storage/store/server/store_copy.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/reader/server_reader.hpp"
 
 #include <filesystem>
 
@@ -31,8 +32,11 @@ RoadStore opened_store(const std::filesystem::path& file, const Console& console
 ImportStore opened_for_import(const std::filesystem::path& store, const Console& console);
 
 /// Opens a database for a command that reads, with that wait policy.
+///
+/// \param need  what the command reads: of a database on a server, only that is fetched.
 StoreReader opened_reader(const std::filesystem::path& file,
                           const Console& console,
-                          Audience audience = Audience::anyone);
+                          Audience audience = Audience::anyone,
+                          const ServerNeed& need = {});
 
 } // namespace macadam

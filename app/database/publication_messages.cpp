@@ -48,8 +48,10 @@ bool can_show_events(const StoreReader& store,
     return true;
 }
 
-StoreReader open_for_operator(const std::filesystem::path& file, const Console& console) {
-    auto store = opened_reader(file, console, Audience::operator_);
+StoreReader open_for_operator(const std::filesystem::path& file,
+                              const Console& console,
+                              const ServerNeed& need) {
+    auto store = opened_reader(file, console, Audience::operator_, need);
     if (store.settings().privacy == PrivacyProfile::crowd && !store.shows_published_alone()) {
         console.say("for the operator only: this shows more than is published; do not pass it "
                     "on");

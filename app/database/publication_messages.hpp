@@ -3,6 +3,7 @@
 #include "app/cli/console.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/store/records/publication.hpp"
+#include "storage/store/server/reader/server_reader.hpp"
 
 #include <optional>
 #include <string>
@@ -22,7 +23,9 @@ bool can_show_events(const StoreReader& store, const SegmentFilter& filter, cons
 
 /// Opens a database for a command that shows its operator more than is published. Says so in that
 /// case, since the output must not be passed on.
-StoreReader open_for_operator(const std::filesystem::path& file, const Console& console);
+StoreReader open_for_operator(const std::filesystem::path& file,
+                              const Console& console,
+                              const ServerNeed& need = {});
 
 /// Restricts a request to the operator of a crowd database.
 /// \param what         subject of the message: "single passes"

@@ -15,12 +15,14 @@
 #include "app/output/units_option.hpp"
 #include "app/query/section_output.hpp"
 #include "app/render/style_options.hpp"
+#include "storage/store/server/reader/local_copy.hpp"
 
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/exports/event_export.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/exports/qgis_project.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/store/reader/pass_choice.hpp"
 #include "storage/tiles/tile_archive.hpp"
 
 #include <fmt/format.h>
@@ -135,7 +137,7 @@ SitePlan parse_site(const ExportOptions& options, const Arguments& arguments) {
             throw UsageError{fmt::format("{} and --format site cannot be combined", refused)};
         }
     }
-    return {.title = arguments.value("--title").value_or(options.store.stem().string()),
+    return {.title = arguments.value("--title").value_or(title_of(options.store)),
             .left_hand = arguments.flag("--left-hand"),
             .tiles = parse_tile_plan(arguments)};
 }
@@ -280,18 +282,31 @@ void export_sections(const StoreReader& store,
                             spoken(total, options.text.units)));
 }
 
+/// What of a database on a server is read.
+ServerNeed need_of(const ExportOptions& options) {
+    ServerNeed need;
+    need.content.background = options.tiles || options.site;
+    need.content.passes = options.site || options.events || selects_passes(options.filter);
+    if (!options.site && !options.sections && options.filter.vehicle.empty()) {
+        need.segments = options.filter;
+    }
+    return need;
+}
+
 void run_export(const Arguments& arguments, const Console& console) {
     auto options = parse_export(arguments, console);
     if (!options.text.put) {
         refuse_to_replace(options.output, inputs_of(options, arguments));
     }
     if (options.pictures) {
-        expect_file(options.store.string());
+        const LocalCopy copy{options.store,
+                             wait_policy_for(options.store, console),
+                             console.progress("reading drives")};
         export_picture_tiles(
-            options.store, options.filter.box, options.output, *options.pictures, console);
+            copy.file(), options.filter.box, options.output, *options.pictures, console);
         return;
     }
-    const auto store = opened_reader(options.store, console);
+    const auto store = opened_reader(options.store, console, Audience::anyone, need_of(options));
     complete_filter(options.filter, store);
     warn_of_waiting(store, options.store, console);
     warn_of_empty_map(store, console);

@@ -96,7 +96,8 @@ WorkedJobs import_jobs(ImportStore& store,
             worked.ends.push_back({.job = jobs[i].job,
                                    .state = fate.state,
                                    .reason = std::move(fate.reason),
-                                   .passes = outcomes[i].passes});
+                                   .passes = outcomes[i].passes,
+                                   .trips = std::move(outcomes[i].stored)});
         } else {
             worked.left.push_back(jobs[i].job);
         }

@@ -205,10 +205,8 @@ private:
 
     /// Removes logs from the object store that are imported, also those of killed workers.
     void erase_done() {
-        if (work_.keeps_logs) {
-            return;
-        }
-        const auto done = jobs_to_erase(*queue_, 2 * max_batch);
+        const auto done = jobs_to_erase(
+            *queue_, 2 * max_batch, work_.keeps_logs ? ErasedLogs::forgotten : ErasedLogs::all);
         if (done.empty()) {
             return;
         }

@@ -35,6 +35,9 @@ void add(LogOutcome& outcome,
          const std::filesystem::path& file,
          bool is_our_own) {
     using Result = TripReport::Result;
+    if (report.result == Result::imported || report.result == Result::known) {
+        outcome.stored.push_back(report.sha256);
+    }
     if (report.result == Result::imported || (report.result == Result::known && is_our_own)) {
         ++outcome.imported;
         outcome.passes += static_cast<std::int64_t>(report.passes);

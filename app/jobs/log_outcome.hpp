@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -14,7 +15,8 @@ namespace macadam {
 struct LogOutcome {
     std::size_t imported = 0, known = 0, outside = 0, rejected = 0; ///< trips
     std::int64_t passes = 0;
-    std::string reason{}; ///< the first one
+    std::string reason{};              ///< the first one
+    std::vector<std::string> stored{}; ///< SHA-256 of trips that are in the database
 
     std::size_t trips() const { return imported + known + outside + rejected; }
 };

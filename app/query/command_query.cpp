@@ -20,6 +20,7 @@
 #include "storage/exports/event_export.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/networks/network_file.hpp"
+#include "storage/store/reader/pass_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -194,6 +195,24 @@ void print_sections(const StoreReader& store, const QueryOptions& options, const
     console.say(spoken(total, options.units));
 }
 
+/// What of a database on a server is read. Sections, and roads that consist of several ways, need
+/// all roads.
+ServerNeed need_of(const QueryOptions& options) {
+    ServerNeed need;
+    need.content.background = false;
+    need.content.passes = options.history || options.passes || options.changes || options.events ||
+                          selects_passes(options.filter);
+    const bool joins = options.worst.count > 0 && !options.worst.single_segments;
+    if (!options.sections && !joins && options.filter.vehicle.empty()) {
+        need.segments = filter_of(options);
+        if (options.near) {
+            need.segments->worst = 0;
+            need.segments->box = box_near(options.filter, *options.near);
+        }
+    }
+    return need;
+}
+
 void run_query(const Arguments& arguments, const Console& console) {
     auto options = parse_query(arguments);
     if (options.output) {
@@ -206,7 +225,7 @@ void run_query(const Arguments& arguments, const Console& console) {
         }
         refuse_to_replace(*options.output, inputs);
     }
-    const auto store = open_for_operator(options.store, console);
+    const auto store = open_for_operator(options.store, console, need_of(options));
     complete_filter(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);

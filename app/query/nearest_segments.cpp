@@ -28,10 +28,14 @@ GeoBox intersection(const std::optional<GeoBox>& a, const GeoBox& b) {
 
 } // namespace
 
+GeoBox box_near(const SegmentFilter& filter, const NearOptions& near) {
+    return intersection(filter.box, grown(including({}, near.at), near.radius_m));
+}
+
 std::vector<SegmentRecord>
 segments_near(const StoreReader& store, const SegmentFilter& filter, const NearOptions& near) {
     auto around = filter;
-    around.box = intersection(filter.box, grown(including({}, near.at), near.radius_m));
+    around.box = box_near(filter, near);
     around.worst = 0; // applied below, within the radius
     std::vector<std::pair<double, SegmentRecord>> by_distance;
     store.visit(around, [&](const SegmentRecord& record) {

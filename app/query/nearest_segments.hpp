@@ -7,6 +7,9 @@
 
 namespace macadam {
 
+/// Box in which they lie, within that of the filter.
+GeoBox box_near(const SegmentFilter& filter, const NearOptions& near);
+
 /// Finds the segments within the radius of a position that meet the filter, nearest first. With a
 /// heading, only segments driven within 45 degrees of it at their nearest point.
 std::vector<SegmentRecord>

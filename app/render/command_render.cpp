@@ -5,6 +5,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/selection.hpp"
+#include "app/database/server_store.hpp"
 #include "app/output/units_option.hpp"
 #include "app/render/base_map_option.hpp"
 #include "app/render/change_map.hpp"
@@ -14,10 +15,13 @@
 #include "app/render/style_options.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/geometry/antimeridian.hpp"
+#include "storage/store/reader/pass_choice.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -62,7 +66,7 @@ std::string usual_title(const Arguments& arguments) {
 }
 
 RenderOptions parse_render(const Arguments& arguments, const Console& console) {
-    return {.store = store_file(arguments),
+    return {.store = file_or_server(arguments),
             .output = parse_picture_output(arguments),
             .filter = parse_filter(arguments),
             .selection = text_of_filter(arguments, "--bbox"),
@@ -93,10 +97,36 @@ void expect_files_apart(const RenderOptions& options, const Arguments& arguments
     }
 }
 
+/// Box that holds all that a picture of a box shows: the shorter side is extended to its shape.
+GeoBox frame_around(const GeoBox& box, const PictureSize& size) {
+    const GeoPoint south_west{box.south_deg, box.west_deg};
+    const double side_m = std::max(distance_m(south_west, {box.south_deg, box.east_deg}),
+                                   distance_m(south_west, {box.north_deg, box.west_deg}));
+    const auto [narrow_px, wide_px] = std::minmax({size.width_px, size.height_px});
+    const double shape = narrow_px > 0 ? 1.0 * wide_px / narrow_px : 1;
+    return grown_over(box, 0.75 * shape * side_m); // half is needed; titles and legends take some
+}
+
+/// What of a database on a server is read: with --bbox what the picture may show around it, else
+/// all, as roads that are not selected are shown, too.
+ServerNeed need_of(const RenderOptions& options) {
+    ServerNeed need;
+    need.content.background = options.background;
+    need.content.passes =
+        options.events || options.since_ms || selects_passes(options.filter) || !options.filter.box;
+    if (options.filter.box && options.filter.vehicle.empty()) {
+        SegmentFilter around;
+        around.with_state_only = false;
+        around.box = frame_around(*options.filter.box, options.output.size);
+        need.segments = around;
+    }
+    return need;
+}
+
 void run_render(const Arguments& arguments, const Console& console) {
     auto options = parse_render(arguments, console);
     expect_files_apart(options, arguments);
-    const auto store = opened_reader(options.store, console);
+    const auto store = opened_reader(options.store, console, Audience::anyone, need_of(options));
     complete_filter(options.filter, store);
     warn_of_waiting(store, options.store, console);
     warn_of_empty_map(store, console);
@@ -146,7 +176,7 @@ void run_render(const Arguments& arguments, const Console& console) {
                             words));
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{source_operand};
 constexpr std::array output_options{
     picture_output_option,
     picture_format_option,

@@ -1,6 +1,6 @@
 #include "app/render/style_options.hpp"
 
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/output/units_option.hpp"
 #include "estimator/common/error.hpp"
 #include "mapping/style/print_ramp.hpp"
@@ -120,7 +120,7 @@ std::optional<int> grey_below(const Arguments& arguments) {
 }
 
 MapStyle parse_style(const Arguments& arguments, const Console& console) {
-    auto style = style_of(parse_look(arguments, store_file(arguments), console).look);
+    auto style = style_of(parse_look(arguments, file_or_server(arguments), console).look);
     style.left_hand_traffic = arguments.flag("--left-hand");
     style.labels = !arguments.flag("--no-labels");
     style.min_passes = grey_below(arguments).value_or(style.min_passes);

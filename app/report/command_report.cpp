@@ -6,6 +6,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/selection.hpp"
+#include "app/database/server_store.hpp"
 #include "app/output/units_option.hpp"
 #include "app/render/style_options.hpp"
 #include "app/report/reference_output.hpp"
@@ -136,7 +137,7 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
             output ? fmt::format("-o is '{}', expected a name that ends in .html or .pdf", *output)
                    : std::string{"-o report.html is missing"}};
     }
-    const auto store = store_file(arguments);
+    const auto store = file_or_server(arguments);
     const auto look = parse_look(arguments, store, console);
     const auto wording = wording_of(look);
     auto sections = parse_sections(arguments, false);
@@ -259,7 +260,7 @@ void report_against_reference(const Arguments& arguments, const Console& console
     if (!output.page) {
         refuse_for_programs(arguments);
     }
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     const auto wording =
         output.page ? wording_of(parse_look(arguments, file, console)) : Localisation{};
     for (const auto& written : {output.page, output.rows}) {
@@ -344,7 +345,7 @@ void run_report(const Arguments& arguments, const Console& console) {
                             static_cast<double>(bytes.size()) / 1e6));
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{source_operand};
 constexpr std::array output_options{
     Option{"-o,--output", "FILE", "The report, an .html or .pdf file; - for standard output."},
     Option{"--against-reference",

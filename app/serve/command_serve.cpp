@@ -1,7 +1,8 @@
 #include "app/cli/server_commands.hpp"
 
+#include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/parallel/jobs_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
@@ -12,14 +13,23 @@
 #include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "storage/store/server/reader/local_copy.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -108,6 +118,46 @@ std::string parse_staff_header(const Arguments& arguments, const HttpServerConfi
     return header;
 }
 
+/// Rejects options that need tokens, which lie beside a file.
+void expect_no_reception(const Arguments& arguments) {
+    for (const auto* const option : {"--only-with-token", "--workers"}) {
+        if (arguments.is_given(option)) {
+            throw UsageError{fmt::format("{} is for a .gpkg file; logs for a server go through "
+                                         "'macadam submit' and 'macadam worker'",
+                                         option)};
+        }
+    }
+}
+
+/// Keeps the copy of a database on a server up to date, in a thread of its own.
+class CopyFollower {
+public:
+    CopyFollower(LocalCopy& copy, const Console& console)
+        : thread_{[&copy, &console](const std::stop_token& stop) { follow(copy, console, stop); }} {
+    }
+
+private:
+    static void follow(LocalCopy& copy, const Console& console, const std::stop_token& stop) {
+        std::mutex mutex;
+        std::unique_lock lock{mutex};
+        std::condition_variable_any stopped;
+        std::string trouble;
+        while (!stopped.wait_for(lock, stop, look_every, [&] { return stop.stop_requested(); })) {
+            try {
+                copy.refresh({.report = {}, .stop = stop});
+                trouble.clear();
+            } catch (const std::exception& error) { // what was copied is served on
+                if (std::exchange(trouble, error.what()) != error.what()) {
+                    console.warn(error.what());
+                }
+            }
+        }
+    }
+
+    static constexpr std::chrono::seconds look_every{5};
+    std::jthread thread_;
+};
+
 /// Parses the sections, and cuts them once, so that an invalid file is refused at once.
 std::optional<SectionOptions> parse_served_sections(const Arguments& arguments,
                                                     const std::filesystem::path& store) {
@@ -155,16 +205,27 @@ void run_serve(const Arguments& arguments, const Console& console) {
         serve_folder(given, config, address, console, started);
         return;
     }
-    const auto file = store_file(arguments);
+    const auto store = file_or_server(arguments);
+    LocalCopy copy{store, wait_policy_for(store, console), console.progress("reading drives")};
+    const auto& file = copy.file();
+    const bool is_on_server = copy.is_of_server();
+    if (is_on_server) {
+        expect_no_reception(arguments);
+    }
     tell_publication(StoreReader::open(file), console);
     auto reception = parse_reception(arguments);
     reception.staff_header = parse_staff_header(arguments, config);
     const auto sections = parse_served_sections(arguments, file);
+    std::optional<CopyFollower> follower;
+    if (is_on_server) {
+        follower.emplace(copy, console);
+    }
     serve_database(file, Audience::anyone, config, address, console, started, reception, sections);
 }
 
-constexpr std::array operands{
-    Operand{"STORE", "The road database, or a folder made by 'macadam export --format site'."}};
+constexpr std::array operands{Operand{"STORE",
+                                      "The road database, a .gpkg file or postgresql://..., or a "
+                                      "folder made by 'macadam export --format site'."}};
 
 constexpr std::array options{
     Option{"--listen",

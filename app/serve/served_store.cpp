@@ -6,6 +6,7 @@
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/sqlite/sqlite_header_check.hpp"
 #include "storage/store/fusion/store_version.hpp"
+#include "storage/store/server/reader/server_mirror.hpp"
 
 #include <fmt/format.h>
 
@@ -102,7 +103,12 @@ ServedStore::Versions ServedStore::versions_now() {
                     watch_->inode,
                     database.number("SELECT coalesce(max(number), 0) FROM publication"));
     const auto [maintenance, last_trip] = moment_of(database);
-    const auto trips = fmt::format("{}\n{}\n{}", watch_->inode, maintenance, last_trip);
+    auto copied = database.prepare("SELECT value FROM meta WHERE key = ?"); // of a server
+    const auto trips = fmt::format("{}\n{}\n{}{}",
+                                   watch_->inode,
+                                   maintenance,
+                                   last_trip,
+                                   copied.bind(mirror_moment_key).step() ? copied.text(0) : "");
     auto all = published + "\n" + trips;
     if (!dirty_chunks(database).empty()) { // values change without another trip
         all += fmt::format("\n{}", std::chrono::system_clock::now().time_since_epoch().count());

@@ -5,7 +5,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
-#include "storage/store/server/store_copy.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>

@@ -2,8 +2,10 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/segment_options.hpp"
 #include "app/database/server_store.hpp"
+#include "app/jobs/forgotten_logs.hpp"
 #include "app/uploads/upload_work.hpp"
 
+#include "storage/postgres/server_address.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -36,6 +38,9 @@ void run_forget(const Arguments& arguments, const Console& console) {
     const auto progress = console.progress("deleting");
     const auto forgotten = store.maintenance.forget(request, progress);
     drop_forgotten_uploads(store, console);
+    if (is_server_address(file.string())) {
+        erase_forgotten_logs(file.string(), console);
+    }
     if (arguments.flag("--json")) {
         print(json_of(forgotten));
     } else {

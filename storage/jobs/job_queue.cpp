@@ -3,6 +3,7 @@
 #include "estimator/common/exact_number.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -43,6 +44,10 @@ std::vector<Job> jobs_in(const std::vector<ServerRow>& rows) {
     return jobs;
 }
 
+/// Reason of a job that was ended because a trip of its log was permanently deleted.
+constexpr const char* forgotten_reason = "permanently deleted";
+constexpr const char* was_forgotten = "AND state = 'known' AND reason = 'permanently deleted'";
+
 /// State before, of those that are there.
 std::map<std::string, UploadState>
 known_states(ServerConnection& server, std::span<const Job> logs, std::string_view lock) {
@@ -57,20 +62,32 @@ known_states(ServerConnection& server, std::span<const Job> logs, std::string_vi
     return states;
 }
 
-/// Takes those that no one has, or whose worker let its lease run out.
+/// Condition for those that no one has, or whose worker let its lease run out.
+constexpr const char* is_free =
+    "state IN ('queued', 'working')"
+    " AND (state = 'queued' AND not_before <= now() OR lease_until < now())";
+
+/// Attempts of the first job that is due again; 0 if none is.
+std::int64_t attempts_of_next_retry(ServerConnection& server) {
+    const auto found = server.numbers(
+        fmt::format("SELECT attempts FROM macadam.job WHERE {} AND attempts > 0 AND attempts < {}"
+                    " ORDER BY number LIMIT 1 FOR UPDATE SKIP LOCKED",
+                    is_free,
+                    max_job_attempts));
+    return found.empty() ? 0 : found.front();
+}
+
+/// Takes free ones with so many attempts. \param attempts  0: "= 0", by its index
 std::vector<Job>
-take(ServerConnection& server, const JobTaker& taker, std::size_t at_most, std::string_view begun) {
+take(ServerConnection& server, const JobTaker& taker, std::size_t at_most, std::int64_t attempts) {
     return jobs_in(server.rows(
-        fmt::format("WITH next AS (SELECT sha256 FROM macadam.job"
-                    " WHERE state IN ('queued', 'working') AND attempts {}"
-                    " AND (state = 'queued' AND not_before <= now() OR lease_until < now())"
-                    " AND attempts < {}"
+        fmt::format("WITH next AS (SELECT sha256 FROM macadam.job WHERE {} AND attempts {}"
                     " ORDER BY number LIMIT $3 FOR UPDATE SKIP LOCKED)"
                     " UPDATE macadam.job SET state = 'working', attempts = attempts + 1,"
                     " worker = $1, lease_until = now() + $2::interval"
                     " FROM next WHERE job.sha256 = next.sha256 RETURNING job.{}",
-                    begun,
-                    max_job_attempts,
+                    is_free,
+                    attempts == 0 ? "= 0" : fmt::format("> 0 AND attempts = {}", attempts),
                     "sha256, job.suffix, job.bytes, job.attempts"),
         {taker.worker, fmt::format("{} s", taker.lease.count()), std::to_string(at_most)}));
 }
@@ -144,10 +161,15 @@ std::vector<Job> take_jobs(ServerConnection& server,
                            std::size_t at_most,
                            bool first_retries) {
     park_dead(server);
-    constexpr std::size_t alone = 1;
     for (const bool is_retry : {first_retries, !first_retries}) {
-        auto taken =
-            is_retry ? take(server, taker, alone, "> 0") : take(server, taker, at_most, "= 0");
+        const auto attempts = is_retry ? attempts_of_next_retry(server) : 0;
+        if (is_retry && attempts == 0) {
+            continue;
+        }
+        // Those that share a batch with one that ends its worker are alone in the end.
+        const auto count =
+            attempts + 1 < max_job_attempts ? std::max<std::size_t>(at_most >> attempts, 1) : 1;
+        auto taken = take(server, taker, count, attempts);
         if (!taken.empty()) {
             return taken;
         }
@@ -170,12 +192,17 @@ finish_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job
         auto values = ours(taker, end.job);
         values.insert(values.end(),
                       {std::string{name_of(end.state)}, end.reason, std::to_string(end.passes)});
-        count += server
-                     .rows(std::string{"UPDATE macadam.job SET state = $4, reason = $5,"
-                                       " passes = $6, finished_at = now(), lease_until = NULL"} +
-                               is_ours + " RETURNING 1",
-                           values)
-                     .size();
+        const auto ended =
+            server.rows(std::string{"UPDATE macadam.job SET state = $4, reason = $5,"
+                                    " passes = $6, finished_at = now(), lease_until = NULL"} +
+                            is_ours + " RETURNING 1",
+                        values);
+        if (!ended.empty() && !end.trips.empty()) {
+            server.rows("INSERT INTO macadam.job_trip (trip, job) SELECT unnest($1::text[]), $2"
+                        " ON CONFLICT DO NOTHING",
+                        {fmt::format("{{{}}}", fmt::join(end.trips, ",")), end.job.sha256});
+        }
+        count += ended.size();
     }
     one.commit();
     return count;
@@ -212,12 +239,13 @@ void put_back_all(ServerConnection& server, const JobTaker& taker) {
                 {taker.worker});
 }
 
-std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit) {
-    return jobs_in(server.rows(fmt::format("SELECT {} FROM macadam.job WHERE has_object"
-                                           " AND state IN ('imported', 'known')"
-                                           " ORDER BY number LIMIT $1",
-                                           job_columns),
-                               {std::to_string(limit)}));
+std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit, ErasedLogs which) {
+    return jobs_in(
+        server.rows(fmt::format("SELECT {} FROM macadam.job WHERE has_object"
+                                " AND state IN ('imported', 'known') {} ORDER BY number LIMIT $1",
+                                job_columns,
+                                which == ErasedLogs::forgotten ? was_forgotten : ""),
+                    {std::to_string(limit)}));
 }
 
 void note_erased(ServerConnection& server, std::span<const Job> jobs) {
@@ -225,6 +253,28 @@ void note_erased(ServerConnection& server, std::span<const Job> jobs) {
                 " AND state IN ('imported', 'known') FOR UPDATE SKIP LOCKED)"
                 " UPDATE macadam.job SET has_object = false FROM done"
                 " WHERE job.sha256 = done.sha256",
+                {hashes_of(jobs)});
+    remove_forgotten_jobs(server, jobs);
+}
+
+std::vector<Job> end_forgotten_jobs(ServerConnection& server) {
+    // The mark is that of forgotten_mark() (storage/store/rows/known_trips.hpp).
+    constexpr const char* mark =
+        "encode(sha256(convert_to('macadam forgot ' || {}, 'UTF8')), 'hex')";
+    return jobs_in(server.rows(fmt::format(
+        "UPDATE macadam.job SET state = 'known', finished_at = now(), lease_until = NULL,"
+        " worker = NULL, has_object = true, reason = '{}' WHERE sha256 IN"
+        " (SELECT job FROM macadam.job_trip JOIN macadam.forgotten ON mark = {}"
+        " UNION SELECT sha256 FROM macadam.job JOIN macadam.forgotten ON mark = {})"
+        " RETURNING {}",
+        forgotten_reason,
+        fmt::format(fmt::runtime(mark), "trip"),
+        fmt::format(fmt::runtime(mark), "sha256"),
+        job_columns)));
+}
+
+void remove_forgotten_jobs(ServerConnection& server, std::span<const Job> jobs) {
+    server.rows(fmt::format("DELETE FROM macadam.job WHERE sha256 = ANY($1) {}", was_forgotten),
                 {hashes_of(jobs)});
 }
 

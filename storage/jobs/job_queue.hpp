@@ -52,10 +52,11 @@ struct JobTaker {
 };
 
 /// Takes jobs that wait, or whose worker is dead, in a transaction of its own: their attempts count
-/// even if the caller is killed at once. Jobs that were begun before are taken one at a time, as
-/// they may have ended their worker. Those that were begun five times are parked.
+/// even if the caller is killed at once. Of jobs that were begun before, as one of them may have
+/// ended its worker, fewer are taken together after each attempt, and the last time one alone.
+/// Those that were begun five times are parked.
 ///
-/// \param first_retries  takes a job that was begun before, if one is due, before new ones
+/// \param first_retries  takes jobs that were begun before, if one is due, before new ones
 std::vector<Job>
 take_jobs(ServerConnection& server, const JobTaker& taker, std::size_t at_most, bool first_retries);
 
@@ -65,6 +66,7 @@ struct JobEnd {
     UploadState state = UploadState::imported;
     std::string reason{};
     std::int64_t passes = 0;
+    std::vector<std::string> trips{}; ///< SHA-256 of those of its trips that are stored
 };
 
 /// Records ends, in one transaction. Those of jobs that another worker has taken meanwhile are left
@@ -85,9 +87,21 @@ void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<co
 /// connection broke, and its heartbeat, which has another, keeps others from taking them.
 void put_back_all(ServerConnection& server, const JobTaker& taker);
 
+/// Which logs leave the object store once they are done.
+enum class ErasedLogs : std::uint8_t {
+    all,
+    forgotten ///< those with a trip that was permanently deleted
+};
+
 /// Jobs that are done and whose objects are still stored, at most `limit`.
-std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit);
+std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit, ErasedLogs which);
 /// Notes that their objects are gone.
 void note_erased(ServerConnection& server, std::span<const Job> jobs);
+
+/// Ends jobs of logs that are, or hold, a trip which was permanently deleted, whatever they wait
+/// for. \returns them; their objects are to be erased.
+std::vector<Job> end_forgotten_jobs(ServerConnection& server);
+/// Removes jobs that were ended so, once their objects are gone.
+void remove_forgotten_jobs(ServerConnection& server, std::span<const Job> jobs);
 
 } // namespace macadam

@@ -85,4 +85,26 @@ BEGIN
 END $$;
 )sql";
 
+const char* const job_trip_schema = R"sql(
+CREATE TABLE macadam.job_trip (
+    trip text NOT NULL,
+    job text NOT NULL REFERENCES macadam.job ON DELETE CASCADE,
+    PRIMARY KEY (trip, job)
+);
+CREATE INDEX job_trip_job ON macadam.job_trip (job);
+COMMENT ON TABLE macadam.job_trip IS 'Trips that were found in submitted logs';
+COMMENT ON COLUMN macadam.job_trip.trip IS 'SHA-256 of the trip, in hex digits';
+COMMENT ON COLUMN macadam.job_trip.job IS 'SHA-256 of the log';
+COMMENT ON INDEX macadam.job_trip_job IS 'Trips of a log, which go with it';
+
+DO $$
+DECLARE
+    role text;
+BEGIN
+    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
+        EXECUTE format('GRANT SELECT, INSERT, UPDATE, DELETE ON macadam.job_trip TO %I', role);
+    END LOOP;
+END $$;
+)sql";
+
 } // namespace macadam

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <libpq-fe.h>
 
+#include <cctype>
 #include <memory>
 #include <string_view>
 
@@ -43,6 +44,16 @@ ConnectionSettings connection_settings(const std::string& address) {
         settings.emplace(keyword, option->val);
     }
     return settings;
+}
+
+std::string database_name(const std::string& address) {
+    std::string name;
+    for (const char c : connection_settings(address)["dbname"]) {
+        const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+                              (c == '-' && !name.empty());
+        name += is_plain ? c : '_';
+    }
+    return name.empty() ? "roads" : name;
 }
 
 void expect_file(std::string_view database) {

@@ -24,6 +24,11 @@ using ConnectionSettings = std::map<std::string, std::string>;
 /// \throws InputError  as expect_address_without_secrets().
 ConnectionSettings connection_settings(const std::string& address);
 
+/// Name of the database on its server, in letters of file names; "roads" if it has none.
+///
+/// \throws InputError  for a malformed address.
+std::string database_name(const std::string& address);
+
 /// Refuses the address of a server where only a file serves.
 ///
 /// \throws InputError  for an address, with the way around.

@@ -6,8 +6,8 @@
 
 #include "mapping/passes/chunk_trace.hpp"
 #include "storage/store/road_store.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
-#include "storage/store/server/store_copy.hpp"
 
 #include "bench/clock.hpp"
 #include "bench/driven_town.hpp"

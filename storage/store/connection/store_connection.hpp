@@ -59,7 +59,9 @@ struct StoreConnection {
     std::filesystem::path key_file;
     std::optional<PrivacyKey> key;
     std::function<void(const Progress&)> after_write; ///< see written()
-    bool published_alone = false;                     ///< see StoreReader::shows_published_alone()
+    /// Of a copy of a part of a database: times of the first and last pass of the whole.
+    std::optional<ObservedPeriod> seen_in_whole{};
+    bool published_alone = false; ///< see StoreReader::shows_published_alone()
 };
 
 /// Opens a database and checks that this program made it. Readers other than the operator see only

@@ -92,6 +92,9 @@ AlignmentSummary alignment_in(Database& database) {
 } // namespace
 
 ObservedPeriod StoreReader::seen() const {
+    if (store_->seen_in_whole) {
+        return *store_->seen_in_whole;
+    }
     auto select =
         store_->database.prepare("SELECT min(first_seen_ms), max(last_seen_ms) FROM segment_state");
     select.step();

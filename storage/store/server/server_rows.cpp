@@ -105,6 +105,24 @@ void put_row(CopyWriter& writer, const Statement& row, const ServerTable& table)
     writer.end_row();
 }
 
+void put_row(Statement& insert, const CopyRow& row, const ServerTable& table) {
+    insert.reset();
+    for (int column = 0; column < static_cast<int>(table.columns.size()); ++column) {
+        const std::string_view type{table.columns[static_cast<std::size_t>(column)].type};
+        if (row.is_null(column)) {
+            insert.bind_at(column + 1, std::nullopt);
+        } else if (type.starts_with("bigint")) {
+            insert.bind_at(column + 1, row.integer(column));
+        } else if (type.starts_with("bytea")) {
+            insert.bind_at(column + 1, Blob{row.bytes(column)});
+        } else {
+            insert.bind_at(column + 1, row.bytes(column));
+        }
+    }
+    insert.step();
+    insert.reset();
+}
+
 void continue_row_numbers(ServerConnection& server, const std::string& table) {
     server.rows(fmt::format("SELECT setval(pg_get_serial_sequence('macadam.{0}', 'id'),"
                             " coalesce((SELECT max(id) FROM macadam.{0}), 0) + 1, false)",

@@ -36,6 +36,9 @@ void write_server_state(CopyWriter& writer,
 /// Writes a row of a table that is copied row by row, from all its columns in a file.
 void put_row(CopyWriter& writer, const Statement& row, const ServerTable& table);
 
+/// Puts all columns of such a row into the same table of a file.
+void put_row(Statement& insert, const CopyRow& row, const ServerTable& table);
+
 /// Tables whose rows the server numbers.
 inline constexpr std::array numbered_tables{"vehicle", "trip", "audit"};
 

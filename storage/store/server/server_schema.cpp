@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/jobs/job_schema.hpp"
+#include "storage/store/server/server_schema_sql.hpp"
 #include "storage/store/server/server_tables.hpp"
 #include "storage/styles/road_style.hpp"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -25,21 +27,6 @@ std::string literal(std::string_view text) {
     }
     return quoted + "'";
 }
-
-constexpr const char* migration_table = R"(
-CREATE SCHEMA macadam;
-COMMENT ON SCHEMA macadam IS 'Road roughness maps: passes of cars and fused values of road segments';
-CREATE TABLE macadam.migration (
-    number integer PRIMARY KEY,
-    what text NOT NULL,
-    at timestamptz NOT NULL DEFAULT now()
-);
-COMMENT ON TABLE macadam.migration IS 'Steps by which this schema was made, in order';
-COMMENT ON COLUMN macadam.migration.number IS 'Number of the step, from 1';
-COMMENT ON COLUMN macadam.migration.what IS 'What it did';
-COMMENT ON COLUMN macadam.migration.at IS 'When it ran';
-INSERT INTO macadam.migration VALUES (1, 'tables, views, roles');
-)";
 
 std::string table_sql(const ServerTable& table, const std::string& postgis) {
     std::string columns;
@@ -66,172 +53,6 @@ std::string table_sql(const ServerTable& table, const std::string& postgis) {
                        partition,
                        comments);
 }
-
-constexpr const char* indexes = R"(
-CREATE INDEX segment_geom ON macadam.segment USING gist (geom);
-CREATE UNIQUE INDEX segment_key ON macadam.segment (cell, way_id, direction, seq);
-CREATE INDEX drive_of_trip ON macadam.drive (trip);
-CREATE INDEX event_of_trip ON macadam.event (trip);
-CREATE INDEX way_name ON macadam.way (name);
-CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms, chunk);
-COMMENT ON INDEX macadam.segment_geom IS 'Segments by place';
-COMMENT ON INDEX macadam.segment_key IS 'Segments by key';
-COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
-COMMENT ON INDEX macadam.event_of_trip IS 'Defects of a trip, to forget it';
-COMMENT ON INDEX macadam.way_name IS 'Roads by name';
-COMMENT ON INDEX macadam.chunk_dirty_since IS 'Chunks to be fused, oldest first';
-)";
-
-// The same as drive_body.cpp reads. Differences wrap around there; in sound passes none does.
-constexpr const char* unpacking = R"(
-CREATE FUNCTION macadam.passes_in(body bytea) RETURNS TABLE (
-    "offset" integer, occurrence bigint, iri_left_um integer, iri_right_um integer,
-    iri_centre_um integer, iri_um integer, sd_um integer, centre_only boolean, validity integer,
-    speed_mmps integer, covered_mm integer, confidence_ppm integer, t_ms bigint)
-LANGUAGE plpgsql IMMUTABLE STRICT PARALLEL SAFE SET search_path = pg_catalog AS $$
-DECLARE
-    at integer := 1;
-    size integer := length(body);
-    flags integer;
-    field integer;
-    number bigint;
-    shift integer;
-    part integer;
-    last bigint[] := array_fill(0::bigint, ARRAY[9]); -- left, right, centre, iri, sd, speed, ...
-BEGIN
-    IF size = 0 OR get_byte(body, 0) <> 1 THEN
-        RAISE EXCEPTION 'unknown format of packed passes';
-    END IF;
-    "offset" := 0;
-    WHILE at < size LOOP
-        FOR field IN -3..9 LOOP
-            IF field IN (-1, 0) THEN -- flags, validity
-                IF field = -1 THEN flags := get_byte(body, at);
-                ELSE validity := get_byte(body, at);
-                END IF;
-                at := at + 1;
-                CONTINUE;
-            END IF;
-            CONTINUE WHEN field BETWEEN 1 AND 3 AND (flags >> (field - 1)) & 1 = 0;
-            number := 0;
-            shift := 0;
-            LOOP
-                part := get_byte(body, at);
-                at := at + 1;
-                number := number | ((part & 127)::bigint << shift);
-                shift := shift + 7;
-                EXIT WHEN part < 128;
-            END LOOP;
-            IF field = -3 THEN
-                "offset" := "offset" + number;
-            ELSIF field = -2 THEN
-                occurrence := number;
-            ELSE
-                IF field = 4 AND flags & 3 = 3 THEN
-                    last[4] := (last[1] + last[2]) / 2;
-                END IF;
-                last[field] := last[field] + ((number >> 1) # (-(number & 1)));
-            END IF;
-        END LOOP;
-        iri_left_um := CASE WHEN flags & 1 = 1 THEN last[1] END;
-        iri_right_um := CASE WHEN flags & 2 = 2 THEN last[2] END;
-        iri_centre_um := CASE WHEN flags & 4 = 4 THEN last[3] END;
-        iri_um := last[4];
-        sd_um := last[5];
-        centre_only := flags & 8 = 8;
-        speed_mmps := last[6];
-        covered_mm := last[7];
-        confidence_ppm := last[8];
-        t_ms := last[9];
-        RETURN NEXT;
-    END LOOP;
-END $$;
-COMMENT ON FUNCTION macadam.passes_in(bytea) IS
-    'Unpacks the passes of a drive; offset is the number of the segment in its chunk';
-
-CREATE VIEW macadam.pass AS
-    SELECT drive.cell, drive.chunk + unpacked."offset" AS segment, drive.trip, unpacked.occurrence,
-           unpacked.iri_left_um, unpacked.iri_right_um, unpacked.iri_centre_um, unpacked.iri_um,
-           unpacked.sd_um, unpacked.centre_only, unpacked.validity, unpacked.speed_mmps,
-           unpacked.covered_mm, unpacked.confidence_ppm, unpacked.t_ms,
-           nullif(drive.drive, -1) AS drive
-    FROM macadam.drive CROSS JOIN LATERAL macadam.passes_in(drive.body) AS unpacked;
-COMMENT ON VIEW macadam.pass IS
-    'Passes of trips over segments, unpacked: iri in um/m, speed in mm/s, covered in mm, confidence in ppm, t in ms since the start of the trip';
-)";
-
-constexpr const char* roughness_view = R"(
-CREATE VIEW macadam.roughness AS
-    SELECT segment.fid, segment.geom, segment.segment, segment.way_id, way.name, way.highway,
-           segment.direction, segment.from_m, segment.to_m,
-           state.iri_um / 1000.0::double precision AS iri,
-           state.sd_um / 1000.0::double precision AS iri_sd,
-           state.low_um / 1000.0::double precision AS iri_low,
-           state.high_um / 1000.0::double precision AS iri_high,
-           state.left_um / 1000.0::double precision AS iri_left,
-           state.right_um / 1000.0::double precision AS iri_right,
-           CASE WHEN state.centre_only THEN 'HRI>MRI' ELSE 'MRI' END AS "index",
-           state.class, state.passes, state.vehicles,
-           (to_timestamp(state.first_seen_ms / 1000.0) AT TIME ZONE 'UTC')::date AS first_seen,
-           (to_timestamp(state.last_seen_ms / 1000.0) AT TIME ZONE 'UTC')::date AS last_seen,
-           state.trend_um_per_year / 1000.0::double precision AS trend_per_year,
-           state.trend_sd_um_per_year / 1000.0::double precision AS trend_sd,
-           (to_timestamp(state.changed_ms / 1000.0) AT TIME ZONE 'UTC')::date AS changed,
-           state.change_um / 1000.0::double precision AS change,
-           state.validity
-    FROM macadam.segment_state AS state
-    JOIN macadam.segment ON segment.cell = state.cell AND segment.fid = state.fid
-    JOIN macadam.way ON way.way_id = segment.way_id;
-COMMENT ON VIEW macadam.roughness IS
-    'Roughness (IRI, mm/m) of the segments driven; QGIS shows it with its style';
-)";
-
-constexpr const char* cells = R"(
-CREATE FUNCTION macadam.add_cell(cell integer) RETURNS void
-LANGUAGE plpgsql SET search_path = pg_catalog AS $$
-DECLARE
-    parent text;
-BEGIN
-    FOREACH parent IN ARRAY ARRAY['segment', 'drive', 'segment_state'] LOOP
-        EXECUTE format('CREATE TABLE macadam.%I PARTITION OF macadam.%I FOR VALUES IN (%s)',
-                       parent || '_' || cell, parent, cell);
-        EXECUTE format('COMMENT ON TABLE macadam.%I IS %L', parent || '_' || cell,
-                       'Rows of table ' || parent || ' in map tile ' || cell);
-    END LOOP;
-END $$;
-COMMENT ON FUNCTION macadam.add_cell(integer) IS 'Creates the partitions of a map tile';
-)";
-
-// Roles belong to the whole server. Who may not create them grants rights to others himself.
-constexpr const char* roles = R"(
-DO $$
-DECLARE
-    role text;
-BEGIN
-    FOREACH role IN ARRAY ARRAY['macadam_reader', 'macadam_importer', 'macadam_operator'] LOOP
-        IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = role) THEN
-            IF (SELECT rolcreaterole OR rolsuper FROM pg_roles WHERE rolname = current_user) THEN
-                EXECUTE format('CREATE ROLE %I NOLOGIN', role);
-            ELSE
-                CONTINUE;
-            END IF;
-        END IF;
-        EXECUTE format('GRANT USAGE ON SCHEMA macadam TO %I', role);
-        EXECUTE format('GRANT SELECT ON {0} TO %I', role);
-        IF role <> 'macadam_reader' THEN
-            EXECUTE format('GRANT SELECT ON ALL TABLES IN SCHEMA macadam TO %I', role);
-            EXECUTE format('GRANT INSERT, UPDATE, DELETE ON {1} TO %I', role);
-            EXECUTE format('GRANT USAGE ON ALL SEQUENCES IN SCHEMA macadam TO %I', role);
-        END IF;
-        IF role = 'macadam_operator' THEN
-            EXECUTE format('GRANT INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA macadam TO %I', role);
-            EXECUTE format('GRANT UPDATE ON ALL SEQUENCES IN SCHEMA macadam TO %I', role);
-            EXECUTE format('REVOKE INSERT, UPDATE, DELETE ON macadam.migration FROM %I', role);
-        END IF;
-    END LOOP;
-END $$;
-REVOKE ALL ON FUNCTION macadam.add_cell(integer) FROM PUBLIC;
-)";
 
 /// What an importer writes: trips, and the values fused from them.
 constexpr const char* written_by_importers =
@@ -263,7 +84,9 @@ COMMENT ON COLUMN macadam.trip.trimmed_mm IS 'Left out at ends and long stops by
 )";
 
 const std::array migrations{Migration{2, "queue for workers", job_schema},
-                            Migration{3, "lengths that recorders trimmed", trimmed_lengths}};
+                            Migration{3, "lengths that recorders trimmed", trimmed_lengths},
+                            Migration{4, "changes of chunks and trips", changes_migration_sql},
+                            Migration{5, "trips of logs", job_trip_schema}};
 
 void run_migrations_after(int version, ServerConnection& server) {
     for (const auto& [number, what, sql] : migrations) {
@@ -277,19 +100,6 @@ void run_migrations_after(int version, ServerConnection& server) {
 
 bool has_schema(ServerConnection& server) {
     return server.number("SELECT count(*) FROM pg_namespace WHERE nspname = 'macadam'") != 0;
-}
-
-/// Schema in which PostGIS is installed, quoted.
-std::string postgis_schema(ServerConnection& server) {
-    const auto found = server.rows("SELECT quote_ident(nspname) FROM pg_extension"
-                                   " JOIN pg_namespace AS n ON n.oid = extnamespace"
-                                   " WHERE extname = 'postgis'");
-    if (found.size() != 1 || !found[0][0]) {
-        throw InputError{fmt::format("{}: has no PostGIS; an administrator of the server adds it "
-                                     "with 'CREATE EXTENSION postgis'",
-                                     server.address())};
-    }
-    return *found[0][0];
 }
 
 /// Version of the schema, not newer than this program.
@@ -319,6 +129,18 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 
 } // namespace
 
+std::string postgis_schema(ServerConnection& server) {
+    const auto found = server.rows("SELECT quote_ident(nspname) FROM pg_extension"
+                                   " JOIN pg_namespace AS n ON n.oid = extnamespace"
+                                   " WHERE extname = 'postgis'");
+    if (found.size() != 1 || !found[0][0]) {
+        throw InputError{fmt::format("{}: has no PostGIS; an administrator of the server adds it "
+                                     "with 'CREATE EXTENSION postgis'",
+                                     server.address())};
+    }
+    return *found[0][0];
+}
+
 void create_server_schema(ServerConnection& server) {
     if (has_schema(server)) {
         throw InputError{fmt::format("{}: already has a schema macadam, expected a database "
@@ -326,15 +148,16 @@ void create_server_schema(ServerConnection& server) {
                                      server.address())};
     }
     const auto postgis = postgis_schema(server);
-    server.run(migration_table);
+    server.run(schema_begin_sql);
     for (const auto& table : server_tables()) {
         server.run(table_sql(table, postgis));
     }
-    server.run(indexes);
-    server.run(unpacking);
-    server.run(roughness_view);
-    server.run(cells);
-    server.run(replaced(replaced(roles, "{0}", read_by_all()), "{1}", written_by_importers));
+    server.run(schema_indexes_sql);
+    server.run(schema_unpacking_sql);
+    server.run(schema_roughness_sql);
+    server.run(schema_cells_sql);
+    server.run(
+        replaced(replaced(schema_roles_sql, "{0}", read_by_all()), "{1}", written_by_importers));
     run_migrations_after(1, server);
 }
 
@@ -387,6 +210,14 @@ int upgrade_server_schema(ServerConnection& server) {
     run_migrations_after(version, server);
     server.commit();
     return version;
+}
+
+std::int32_t cell_of_way(std::string_view points) {
+    GeoPoint first{};
+    if (points.size() >= sizeof first) {
+        std::memcpy(&first, points.data(), sizeof first);
+    }
+    return cell_of(first);
 }
 
 std::int32_t cell_of(const GeoPoint& first_node) {

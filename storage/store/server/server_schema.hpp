@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <set>
+#include <string>
+#include <string_view>
 
 namespace macadam {
 
 /// Number of the last migration that this program knows.
-inline constexpr int server_schema_version = 3;
+inline constexpr int server_schema_version = 5;
 
 /// Creates schema `macadam` with its tables, views, comments, rights and, as far as the role may
 /// create them, roles macadam_reader, macadam_importer and macadam_operator. Runs within the
@@ -32,6 +34,16 @@ inline constexpr const char* renew_network_rows =
     "INSERT INTO macadam.meta VALUES ('network_rows', gen_random_uuid()::text)"
     " ON CONFLICT (key) DO UPDATE SET value = excluded.value";
 
+/// Statement that makes copies that others keep be made anew; after each change that is neither a
+/// new trip nor fusion.
+inline constexpr const char* renew_store_rows =
+    "INSERT INTO macadam.meta VALUES ('store_rows', gen_random_uuid()::text)"
+    " ON CONFLICT (key) DO UPDATE SET value = excluded.value";
+
+/// Schema in which PostGIS is installed, quoted.
+/// \throws InputError  if it is not.
+std::string postgis_schema(ServerConnection& server);
+
 /// Checks that the server has a road database of a version that this program knows.
 ///
 /// \throws InputError  if not.
@@ -46,5 +58,8 @@ int upgrade_server_schema(ServerConnection& server);
 /// Cell of a way: the map tile of zoom 8 that holds its first node, as the number of its quadkey,
 /// 0 to 65,535.
 std::int32_t cell_of(const GeoPoint& first_node);
+
+/// The same from column points of table way, in which the first node comes first.
+std::int32_t cell_of_way(std::string_view points);
 
 } // namespace macadam

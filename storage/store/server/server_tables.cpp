@@ -361,20 +361,29 @@ std::span<const ServerTable> server_tables() {
     return tables;
 }
 
-std::string column_list(const ServerTable& table) {
+namespace {
+
+/// Names of all columns by a format, separated by commas.
+std::string listed(const ServerTable& table, const std::string& format) {
     std::string list;
     for (const auto& column : table.columns) {
-        list += fmt::format("{}{}", list.empty() ? "" : ", ", column.name);
+        list += (list.empty() ? "" : ", ") + fmt::format(fmt::runtime(format), column.name);
     }
     return list;
 }
 
+} // namespace
+
+std::string column_list(const ServerTable& table) {
+    return listed(table, "{}");
+}
+
+std::string qualified_column_list(const ServerTable& table) {
+    return listed(table, std::string{table.name} + ".{}");
+}
+
 std::string quoted_column_list(const ServerTable& table) {
-    std::string list;
-    for (const auto& column : table.columns) {
-        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", column.name);
-    }
-    return list;
+    return listed(table, "\"{}\"");
 }
 
 std::string copy_target(const ServerTable& table) {

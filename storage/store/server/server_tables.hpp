@@ -38,7 +38,11 @@ std::span<const ServerTable> server_tables();
 /// Names of all columns, separated by commas.
 std::string column_list(const ServerTable& table);
 
-/// The same in double quotes, as SQLite needs them for names that are words of SQL.
+/// The same with the name of the table, "NAME.COLUMN".
+std::string qualified_column_list(const ServerTable& table);
+
+/// The same as column_list() in double quotes, as SQLite needs them for names that are words of
+/// SQL.
 std::string quoted_column_list(const ServerTable& table);
 
 /// "macadam.NAME (COLUMN, ...)", as COPY takes it.

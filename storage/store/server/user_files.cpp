@@ -44,6 +44,16 @@ void expect_plain(const std::string& name, std::string_view what) {
     }
 }
 
+fs::path cache_folder(std::string_view use) {
+    const auto folder = user_folder("XDG_CACHE_HOME", ".cache");
+    if (!folder) { // others could put a file into a shared folder first
+        throw InputError{fmt::format("neither HOME nor XDG_CACHE_HOME is set, expected the folder "
+                                     "in which macadam/{}",
+                                     use)};
+    }
+    return *folder / "macadam";
+}
+
 } // namespace
 
 fs::path server_key_file(const std::string& key_id) {
@@ -58,12 +68,12 @@ fs::path server_key_file(const std::string& key_id) {
 
 fs::path network_image_file(const std::string& rows) {
     expect_plain(rows, "network_rows");
-    const auto folder = user_folder("XDG_CACHE_HOME", ".cache");
-    if (!folder) { // others could put a file into a shared folder first
-        throw InputError{"neither HOME nor XDG_CACHE_HOME is set, expected the folder in which "
-                         "macadam/networks/ keeps the roads of databases on servers"};
-    }
-    return *folder / "macadam" / "networks" / fmt::format("{}-{}.gpkg", rows, store_version);
+    return cache_folder("networks/ keeps the roads of databases on servers") / "networks" /
+           fmt::format("{}-{}.gpkg", rows, store_version);
+}
+
+fs::path mirror_folder() {
+    return cache_folder("copies/ keeps copies of databases on servers") / "copies";
 }
 
 } // namespace macadam

@@ -21,4 +21,10 @@ std::filesystem::path server_key_file(const std::string& key_id);
 /// \throws InputError  if it is none, or there is no home folder.
 std::filesystem::path network_image_file(const std::string& rows);
 
+/// Folder in which copies of databases are kept for their next reader:
+/// $XDG_CACHE_HOME/macadam/copies, else in ~/.cache.
+///
+/// \throws InputError  if there is no home folder.
+std::filesystem::path mirror_folder();
+
 } // namespace macadam

@@ -63,6 +63,27 @@ TEST(Workers, ImportWhatWasSubmittedAsImportDoes) {
                       HasSubstr("macadam_queue_workers 0\n")));
 }
 
+TEST(Workers, LeaveNoLogOfATripThatIsForgotten) {
+    WorkerWorld world;
+    world.make_trips(2);
+    auto worker = world.worker_words();
+    worker.emplace_back("--keep-logs");
+    EXPECT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    EXPECT_EQ(run_macadam(worker).exit_status, 0);
+    ASSERT_EQ(files_below(world.objects), 2U);
+    fs::path trip;
+    for (const auto& each : fs::directory_iterator{world.trips}) {
+        trip = each.path();
+    }
+    const auto forgot = run_macadam({"forget", world.address, "--trip", trip.filename().string()});
+    EXPECT_EQ(forgot.exit_status, 0) << forgot.err;
+    EXPECT_THAT(forgot.err, HasSubstr("1 submitted log erased from "));
+    EXPECT_EQ(files_below(world.objects), 1U);
+    ServerConnection server{world.address};
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job"), 1);
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job_trip"), 1);
+}
+
 TEST(Workers, TellWhyALogIsRefusedAndTryItAgainWhenItIsSubmittedAgain) {
     WorkerWorld world;
     write_file(world.trips / "junk.trip.csv", "# macadam-trip 1\nt_s,lat_deg\n");

@@ -1,16 +1,44 @@
 // Commands that write to a database on a PostgreSQL server, as users run them.
 
+#include "support/http/http_client.hpp"
+#include "support/program/piped_program.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 namespace macadam::testing {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+
+/// Port that nobody uses just now.
+std::uint16_t free_port() {
+    const int any = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* const plain = reinterpret_cast<sockaddr*>(&address);
+    EXPECT_EQ(bind(any, plain, size), 0);
+    EXPECT_EQ(getsockname(any, plain, &size), 0);
+    close(any);
+    return ntohs(address.sin_port);
+}
 
 class ServerCommands : public ::testing::Test {
 protected:
@@ -88,6 +116,60 @@ TEST_F(ServerCommands, SayWhyTheyCannotMoveCells) {
     const auto none = run_on(address_, {"cells", "--move", "1", "--to", address_});
     EXPECT_EQ(none.exit_status, 1);
     EXPECT_THAT(none.err, HasSubstr("has no cell 1; 'macadam cells " + address_ + "' lists them"));
+}
+
+TEST_F(ServerCommands, ReadWhatTheyReadOfAFile) {
+    run_on_both({"init", "--trace", trip_});
+    run_on_both({"import", trip_, "--method", "kf"});
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"query", "--worst", "3", "--segments", "--format", "csv"},
+             {"query", "--worst", "3", "--format", "csv", "--min-length", "20"},
+             {"query", "--near", "47.6863,17.6799", "--radius", "300", "--format", "csv"},
+             {"query", "--segment", "1+0003", "--passes", "--format", "csv"},
+             {"query", "--way", "1", "--history", "--format", "csv"},
+             {"query", "--class", "poor", "--since", "2020-01", "--format", "csv"},
+             {"export", "-o", "-", "--format", "csv"},
+             {"export", "-o", "-", "--format", "geojson", "--min-passes", "1"},
+             {"render", "-o", "-", "--size", "400x300"},
+             {"render", "-o", "-", "--size", "400x300", "--bbox", "17.67,47.68,17.69,47.69"}}) {
+        const auto on_server = run_on(address_, words), in_file = run_on(file_, words);
+        EXPECT_EQ(on_server.exit_status, 0) << on_server.err;
+        EXPECT_FALSE(in_file.out.empty()) << words.at(1);
+        EXPECT_EQ(on_server.out, in_file.out) << words.at(1);
+    }
+    const auto folder = fresh_folder();
+    const auto report = (folder / "report.html").string();
+    EXPECT_EQ(run_on(address_, {"report", "-o", report}).exit_status, 0);
+    EXPECT_GT(std::filesystem::file_size(report), 10'000U);
+    const auto tiles = (folder / "tiles.pmtiles").string();
+    EXPECT_EQ(run_on(address_, {"export", "-o", tiles, "--tiles", "picture", "--zoom", "12-13"})
+                  .exit_status,
+              0);
+    EXPECT_GT(std::filesystem::file_size(tiles), 1'000U);
+}
+
+TEST_F(ServerCommands, ServeADatabaseWhileItGrows) {
+    ASSERT_EQ(run_on(address_, {"init", "--trace", trip_}).exit_status, 0);
+    const auto port = free_port();
+    PipedProgram serve{{"serve", address_, "--listen", "127.0.0.1:" + std::to_string(port)}};
+    const auto shows = [&](const std::string& words) { // within 30 s
+        for (int i = 0; i < 300; ++i) {
+            if (get(port, "/collections/segments/items?limit=1").body.find(words) !=
+                std::string::npos) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds{100});
+        }
+        return false;
+    };
+    EXPECT_TRUE(shows("\"numberMatched\":0,"));
+    ASSERT_EQ(run_on(address_, {"import", trip_, "--method", "kf"}).exit_status, 0);
+    EXPECT_TRUE(shows("\"iri\":"));
+    serve.signal(SIGTERM);
+    EXPECT_EQ(serve.wait().exit_status, 0);
+    const auto refused = run_on(address_, {"serve", "--only-with-token"});
+    EXPECT_EQ(refused.exit_status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--only-with-token is for a .gpkg file"));
 }
 
 TEST_F(ServerCommands, SayWhyTheyCannot) {

@@ -4,6 +4,7 @@
 
 #include "storage/jobs/work_status.hpp"
 #include "storage/jobs/worker_register.hpp"
+#include "storage/store/rows/known_trips.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "support/files/files.hpp"
 #include "support/program/postgres_server.hpp"
@@ -26,6 +27,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::PostgresServer;
 using testing::refusal_of;
 using ::testing::SizeIs;
@@ -185,10 +187,12 @@ TEST_F(JobQueue, ParksAJobAtWhichFiveWorkersEnded) {
     EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(3));
     for (int attempt = 2; attempt <= max_job_attempts; ++attempt) {
         kill(anna);
-        for (int i = 0; i < 3; ++i) { // each alone, since one of them ends its worker
+        std::size_t taken_again = 0;
+        while (taken_again < 3) {
             const auto taken = take_jobs(queue(), anna, 10, false);
-            ASSERT_THAT(taken, SizeIs(1));
+            ASSERT_THAT(taken, Not(IsEmpty()));
             EXPECT_EQ(taken[0].attempts, attempt);
+            taken_again += taken.size();
         }
     }
     kill(anna);
@@ -197,6 +201,43 @@ TEST_F(JobQueue, ParksAJobAtWhichFiveWorkersEnded) {
     EXPECT_EQ(status.logs.at("parked"), 3);
     ASSERT_THAT(status.failed, SizeIs(2));
     EXPECT_EQ(status.failed[0].reason, "its worker ended 5 times at this log");
+}
+
+TEST_F(JobQueue, TakesRetriesInBatchesThatShrinkUntilEachIsAlone) {
+    constexpr std::size_t count = 40;
+    submit_logs(queue(), logs(static_cast<int>(count)));
+    EXPECT_THAT(take_jobs(queue(), anna, count, false), SizeIs(count));
+    for (const std::size_t batch : {20U, 10U, 5U, 1U}) {
+        kill(anna);
+        for (std::size_t taken = 0; taken < count; taken += batch) {
+            ASSERT_THAT(take_jobs(queue(), anna, count, false), SizeIs(batch)) << taken;
+        }
+    }
+}
+
+TEST_F(JobQueue, EndsJobsOfForgottenTripsWhateverTheyWaitFor) {
+    submit_logs(queue(), logs(4));
+    const auto taken = take_jobs(queue(), anna, 2, false);
+    ASSERT_THAT(taken, SizeIs(2));
+    const std::string trip(64, 'a'), other(64, 'b');
+    JobEnd archive;
+    archive.job = taken[0];
+    archive.trips = {trip, other};
+    finish_jobs(queue(), anna, {&archive, 1});
+    // One is an archive with the trip, one waits and is itself the trip's log.
+    const auto waiting = logs(4).back();
+    for (const auto& hash : {trip, waiting.sha256}) {
+        queue().rows("INSERT INTO macadam.forgotten VALUES ($1)", {forgotten_mark(hash)});
+    }
+    const auto ended = end_forgotten_jobs(queue());
+    EXPECT_EQ(hashes(ended), hashes({taken[0], waiting}));
+    const auto to_erase = jobs_to_erase(queue(), 10, ErasedLogs::forgotten);
+    EXPECT_EQ(hashes(to_erase), hashes(ended)); // by a worker, if nobody else can
+    remove_forgotten_jobs(queue(), ended);
+    EXPECT_THAT(jobs_to_erase(queue(), 10, ErasedLogs::forgotten), IsEmpty());
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 2);
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job_trip"), 0);
+    EXPECT_THAT(end_forgotten_jobs(queue()), IsEmpty());
 }
 
 TEST_F(JobQueue, TriesAFailedJobAgainAfterAPauseAndParksItWithItsReason) {
@@ -277,11 +318,11 @@ TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
         anna,
         std::vector{JobEnd{.job = taken[0]},
                     JobEnd{.job = taken[1], .state = UploadState::refused, .reason = "junk"}});
-    const auto done = jobs_to_erase(queue(), 10);
+    const auto done = jobs_to_erase(queue(), 10, ErasedLogs::all);
     ASSERT_THAT(done, SizeIs(1)); // a refused log is kept for those who ask why
     EXPECT_EQ(done[0].sha256, taken[0].sha256);
     note_erased(queue(), done);
-    EXPECT_THAT(jobs_to_erase(queue(), 10), IsEmpty());
+    EXPECT_THAT(jobs_to_erase(queue(), 10, ErasedLogs::all), IsEmpty());
 }
 
 TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
@@ -331,14 +372,15 @@ TEST_F(JobQueue, IsForImportersAndOperatorsAlone) {
 }
 
 TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
-    queue().run("DROP TABLE macadam.job, macadam.worker, macadam.work_setting;"
-                " ALTER TABLE macadam.trip DROP COLUMN trimmed_mm;"
+    queue().run("DROP TABLE macadam.job_trip, macadam.job, macadam.worker,"
+                " macadam.work_setting, macadam.chunk_change;"
+                " ALTER TABLE macadam.trip DROP COLUMN changed, DROP COLUMN trimmed_mm;"
                 " DELETE FROM macadam.migration WHERE number > 1");
     EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
-                AllOf(HasSubstr("its schema is of version 1, expected 3"),
+                AllOf(HasSubstr("its schema is of version 1, expected 5"),
                       HasSubstr("macadam upgrade postgresql://")));
     EXPECT_EQ(upgrade_server_schema(queue()), 1);
-    EXPECT_EQ(upgrade_server_schema(queue()), 3);
+    EXPECT_EQ(upgrade_server_schema(queue()), server_schema_version);
     expect_server_schema(queue());
     EXPECT_THAT(submit_logs(queue(), logs(1)), SizeIs(1));
     EXPECT_EQ(queue().number("SELECT coalesce(sum(trimmed_mm), 0) FROM macadam.trip"), 0);

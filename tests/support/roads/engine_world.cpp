@@ -1,8 +1,9 @@
 #include "support/roads/engine_world.hpp"
 
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/reader/server_reader.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
-#include "storage/store/server/store_copy.hpp"
 #include "support/roads/store_world.hpp"
 
 namespace macadam::testing {
@@ -27,7 +28,8 @@ ImportStore EngineDatabase::import() const {
 }
 
 StoreReader EngineDatabase::read() const {
-    return server_ ? StoreReader{open_server_moment(name_, {}, {})} : StoreReader::open(name_);
+    return server_ ? StoreReader{open_server_reader(name_, {}, Audience::operator_, {}, {})}
+                   : StoreReader::open(name_);
 }
 
 RoadStore EngineDatabase::maintain() const {

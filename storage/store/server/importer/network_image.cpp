@@ -1,13 +1,12 @@
 #include "storage/store/server/importer/network_image.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/server_schema.hpp"
-#include "storage/store/server/store_copy.hpp"
 #include "storage/store/server/user_files.hpp"
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -68,11 +67,7 @@ const ChunkPlace& ImageRows::place_of(std::int64_t chunk) {
     }
     ChunkPlace place{0, chunk, select_chunk_.integer(0)};
     select_points_.bind(select_chunk_.integer(1)).step();
-    GeoPoint first{};
-    if (const auto points = select_points_.blob(0); points.size() >= sizeof first) {
-        std::memcpy(&first, points.data(), sizeof first);
-    }
-    place.cell = cell_of(first);
+    place.cell = cell_of_way(select_points_.blob(0));
     select_points_.reset();
     select_chunk_.reset();
     if (places_.size() >= most_known) {

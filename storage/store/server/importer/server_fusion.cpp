@@ -239,6 +239,9 @@ void ServerFusion::write(const Batch& batch, FusionRecord& record) {
         write_numbers(*server_, difference.numbers, *record.audit);
     }
     write_alignments(batch);
+    server_->rows("INSERT INTO macadam.chunk_change SELECT unnest($1::bigint[])"
+                  " ON CONFLICT (chunk) DO UPDATE SET changed = excluded.changed",
+                  {array_of(batch.chunks)});
     remove_marks(batch);
 }
 

@@ -3,10 +3,11 @@
 #include "estimator/common/error.hpp"
 #include "storage/store/rows/store_digest.hpp"
 #include "storage/store/server/cells/cell_moves.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/reader/server_mirror.hpp"
 #include "storage/store/server/replica/write_back.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_locks.hpp"
-#include "storage/store/server/store_copy.hpp"
 
 #include <fmt/format.h>
 
@@ -56,6 +57,7 @@ private:
         }
         all.commit();
         drop_unused_cell_tables(server_);
+        remove_mirrors_with_trips(server_);
         recorder_.emplace(database);
     }
 

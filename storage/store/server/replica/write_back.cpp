@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <ranges>
 #include <string_view>
@@ -80,6 +79,7 @@ public:
         if (keys_of("way") != nullptr || keys_of("segment") != nullptr) {
             server_->rows(renew_network_rows);
         }
+        server_->rows(renew_store_rows);
         if (keys_of("strip_dirty") != nullptr || keys_of("segment_dirty") != nullptr) {
             put_marks();
         }
@@ -148,11 +148,12 @@ private:
             columns,
             table.file_table,
             joined(names, " AND ", [](const std::string& name) { return name + " = ?"; })));
-        server_->run(fmt::format("CREATE TEMP TABLE new_{0} (LIKE macadam.{0}) ON COMMIT DROP;"
-                                 "CREATE TEMP TABLE old_{0} ON COMMIT DROP AS"
-                                 " SELECT {1} FROM macadam.{0} WHERE false",
-                                 table.name,
-                                 fmt::join(key_names, ", ")));
+        server_->run(fmt::format(
+            "CREATE TEMP TABLE new_{0} (LIKE macadam.{0} INCLUDING DEFAULTS) ON COMMIT DROP;"
+            "CREATE TEMP TABLE old_{0} ON COMMIT DROP AS"
+            " SELECT {1} FROM macadam.{0} WHERE false",
+            table.name,
+            fmt::join(key_names, ", ")));
         std::vector<const RowKey*> gone;
         CopyWriter writer{*server_,
                           fmt::format("pg_temp.new_{} ({})", table.name, column_list(table)),
@@ -341,24 +342,18 @@ private:
 
     /// Cell of the way of a segment.
     std::int32_t cell_at(std::int64_t fid) {
-        GeoPoint first{};
         select_points_.bind(fid).step();
-        if (const auto points = select_points_.blob(0); points.size() >= sizeof first) {
-            std::memcpy(&first, points.data(), sizeof first);
-        }
+        const auto cell = cell_of_way(select_points_.blob(0));
         select_points_.reset();
-        return cell_of(first);
+        return cell;
     }
 
     void add_missing_cells() {
         std::set<std::int32_t> cells;
         auto select = file_->prepare("SELECT points FROM way WHERE way_id = ?");
         for (const auto& key : *keys_of("way")) {
-            GeoPoint first{};
-            if (select.bind(std::string_view{key[0]}).step() &&
-                select.blob(0).size() >= sizeof first) {
-                std::memcpy(&first, select.blob(0).data(), sizeof first);
-                cells.insert(cell_of(first));
+            if (select.bind(std::string_view{key[0]}).step()) {
+                cells.insert(cell_of_way(select.blob(0)));
             }
             select.reset();
         }

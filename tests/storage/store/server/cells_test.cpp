@@ -5,9 +5,10 @@
 #include "mapping/network/build_network.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/server/cells/cell_drives.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/reader/server_reader.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
-#include "storage/store/server/store_copy.hpp"
 #include "support/files/files.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/roads/engine_world.hpp"
@@ -130,7 +131,9 @@ protected:
         return store.digest();
     }
 
-    std::string digest() const { return StoreReader{open_server_moment(front_, {}, {})}.digest(); }
+    std::string digest() const {
+        return StoreReader{open_server_reader(front_, {}, Audience::operator_, {}, {})}.digest();
+    }
 
     std::int64_t move(std::size_t cell, const std::string& to) {
         ServerConnection boss{boss_};

@@ -3,8 +3,9 @@
 #include "storage/store/server/importer/server_importer.hpp"
 
 #include "storage/postgres/server_connection.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/reader/server_reader.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
-#include "storage/store/server/store_copy.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/engine_world.hpp"
 #include "support/roads/store_world.hpp"
@@ -93,7 +94,7 @@ TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFile)
         }
         EXPECT_EQ(fresh, trips);
         EXPECT_EQ(ServerConnection{address}.number("SELECT count(*) FROM macadam.chunk_dirty"), 0);
-        const StoreReader reader{open_server_moment(address, {}, {})};
+        const StoreReader reader{open_server_reader(address, {}, Audience::operator_, {}, {})};
         EXPECT_EQ(reader.digest(), expected) << order;
         EXPECT_EQ(reader.info().trips, static_cast<std::size_t>(trips));
         EXPECT_EQ(reader.info().vehicles.size(), 3U);
@@ -214,7 +215,7 @@ TEST_F(ServerImports, AreWrittenByTheRoleOfAnImporter) {
         "GRANT INSERT, UPDATE, DELETE ON macadam.vehicle, macadam.trip, macadam.row_reason,"
         " macadam.drive, macadam.event, macadam.event_search, macadam.segment_state,"
         " macadam.chunk_state, macadam.chunk_dirty, macadam.import_note, macadam.audit,"
-        " macadam.state_change TO macadam_importer;"
+        " macadam.state_change, macadam.chunk_change TO macadam_importer;"
         "CREATE ROLE driver LOGIN IN ROLE macadam_importer");
     const auto open = open_server_import(database_.server().address("roads", "driver"));
     open.trips->begin_import("a", 3);

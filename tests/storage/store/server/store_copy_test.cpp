@@ -1,6 +1,7 @@
 // Databases copied to a real PostgreSQL server and back.
 
-#include "storage/store/server/store_copy.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/reader/server_reader.hpp"
 
 #include "mapping/passes/chunk_trace.hpp"
 #include "storage/postgres/server_connection.hpp"
@@ -214,7 +215,7 @@ TEST_F(StoreCopies, ExplainEveryObjectOfTheirSchema) {
 TEST_F(StoreCopies, AreReadAsTheFileIs) {
     make_rich_store(file_);
     copy_there();
-    const auto reader = StoreReader{open_server_moment(address_, {}, {})};
+    const auto reader = StoreReader{open_server_reader(address_, {}, Audience::operator_, {}, {})};
     const auto original = StoreReader::open(file_);
     EXPECT_EQ(reader.digest(), original.digest());
     const auto values_of = [](const StoreReader& store, const SegmentFilter& filter) {
@@ -252,7 +253,7 @@ TEST_F(StoreCopies, RefuseWhatTheyCannotTake) {
                 HasSubstr("roads.gpkg: already exists"));
     change("INSERT INTO macadam.migration VALUES (99, 'future')");
     EXPECT_THAT(refusal_back(),
-                HasSubstr("its schema is of version 99, expected 3: it was made by "
+                HasSubstr("its schema is of version 99, expected 5: it was made by "
                           "a newer version of Macadam"));
 }
 

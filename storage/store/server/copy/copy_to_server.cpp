@@ -6,17 +6,16 @@
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/rows/store_digest.hpp"
 #include "storage/store/schema/store_schema.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/drive_rows.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
-#include "storage/store/server/store_copy.hpp"
 #include "storage/store/server/user_files.hpp"
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -81,11 +80,7 @@ private:
     void read_cells() {
         auto select = file_->prepare("SELECT way_id, points FROM way");
         while (select.step()) {
-            GeoPoint first{};
-            if (const auto points = select.blob(1); points.size() >= sizeof first) {
-                std::memcpy(&first, points.data(), sizeof first);
-            }
-            const auto cell = cell_of(first);
+            const auto cell = cell_of_way(select.blob(1));
             cells_.insert(cell);
             cell_of_way_[select.integer(0)] = cell;
         }

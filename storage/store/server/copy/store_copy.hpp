@@ -53,9 +53,4 @@ std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
                                                   const LockWaitPolicy& wait_policy,
                                                   const Progress& progress);
 
-/// Opens such a copy for reading.
-std::shared_ptr<StoreConnection> open_server_moment(const std::string& address,
-                                                    const LockWaitPolicy& wait_policy,
-                                                    const Progress& progress);
-
 } // namespace macadam

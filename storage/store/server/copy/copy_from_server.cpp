@@ -1,0 +1,112 @@
+#include "estimator/common/error.hpp"
+#include "storage/atomic/atomic_file_set.hpp"
+#include "storage/atomic/temporary_folder.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/rows/store_digest.hpp"
+#include "storage/store/schema/store_schema.hpp"
+#include "storage/store/server/copy/new_copy.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/server_digest.hpp"
+#include "storage/store/server/server_locks.hpp"
+#include "storage/store/server/server_schema.hpp"
+#include "storage/store/server/user_files.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Temporary file with its connection, which ends first.
+struct ServerCopy {
+    explicit ServerCopy(const fs::path& beside) : folder{beside} {}
+    TemporaryFolder folder;
+    std::shared_ptr<StoreConnection> store;
+};
+
+} // namespace
+
+StoreCopy
+copy_from_server(const std::string& address, const fs::path& file, const Progress& progress) {
+    std::error_code none;
+    if (fs::exists(fs::symlink_status(file, none))) {
+        throw InputError{
+            fmt::format("{}: already exists, expected the name of a new file", file.string())};
+    }
+    ServerConnection server{address};
+    stop_writers(server);
+    server.begin(true);
+    see_all_cells(server);
+    expect_server_schema(server);
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
+    RowsFromServer rows{server, database, progress};
+    fill_copy(rows, database, ServerContent::all);
+    const StoreCopy copy{
+        .trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
+        .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
+        .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
+        .by_superuser = server.is_superuser(),
+        .key_file = key_file_of(file)};
+    if (const auto original = digest_of_server(server, rows.chunk_size(), progress);
+        original != copy.digest) {
+        throw InputError{fmt::format("{}: the copy has the digest {}, expected {}; nothing was "
+                                     "written",
+                                     file.string(),
+                                     copy.digest,
+                                     original)};
+    }
+    server.commit();
+    const auto key = read_key(server_key_file(read_key_id(database)));
+    database.close();
+    remove_leftovers_of(file);
+    whole.commit_new();
+    if (key && !read_key(copy.key_file)) {
+        write_key(copy.key_file, *key);
+    }
+    return copy;
+}
+
+void copy_network_from_server(ServerConnection& server,
+                              const fs::path& file,
+                              const Progress& progress) {
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
+    RowsFromServer rows{server, database, progress};
+    fill_copy(rows, database, ServerContent::network);
+    database.close();
+    whole.commit_new();
+}
+
+std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
+                                                  Database::Access access,
+                                                  const LockWaitPolicy& wait_policy,
+                                                  const Progress& progress) {
+    stop_writers(server);
+    ServerTransaction one_moment{server, true};
+    see_all_cells(server);
+    expect_server_schema(server);
+    auto copy = std::make_shared<ServerCopy>(fs::temp_directory_path() / "macadam");
+    const auto file = copy->folder.path() / "roads.gpkg";
+    std::string key_id;
+    {
+        Database database{file, Database::Access::create, server.address()};
+        RowsFromServer rows{server, database, progress};
+        fill_copy(rows, database, ServerContent::all);
+        key_id = read_key_id(database);
+        database.close();
+    }
+    one_moment.commit();
+    if (const auto key = read_key(server_key_file(key_id))) {
+        write_key(key_file_of(file), *key);
+    }
+    copy->store = open_connection(file, access, wait_policy, Audience::operator_, server.address());
+    auto* const store = copy->store.get();
+    return {std::move(copy), store};
+}
+
+} // namespace macadam

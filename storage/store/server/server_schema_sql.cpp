@@ -1,0 +1,215 @@
+#include "storage/store/server/server_schema_sql.hpp"
+
+namespace macadam {
+
+const char* const schema_begin_sql = R"(
+CREATE SCHEMA macadam;
+COMMENT ON SCHEMA macadam IS 'Road roughness maps: passes of cars and fused values of road segments';
+CREATE TABLE macadam.migration (
+    number integer PRIMARY KEY,
+    what text NOT NULL,
+    at timestamptz NOT NULL DEFAULT now()
+);
+COMMENT ON TABLE macadam.migration IS 'Steps by which this schema was made, in order';
+COMMENT ON COLUMN macadam.migration.number IS 'Number of the step, from 1';
+COMMENT ON COLUMN macadam.migration.what IS 'What it did';
+COMMENT ON COLUMN macadam.migration.at IS 'When it ran';
+INSERT INTO macadam.migration VALUES (1, 'tables, views, roles');
+)";
+
+const char* const schema_indexes_sql = R"(
+CREATE INDEX segment_geom ON macadam.segment USING gist (geom);
+CREATE UNIQUE INDEX segment_key ON macadam.segment (cell, way_id, direction, seq);
+CREATE INDEX drive_of_trip ON macadam.drive (trip);
+CREATE INDEX event_of_trip ON macadam.event (trip);
+CREATE INDEX way_name ON macadam.way (name);
+CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms, chunk);
+COMMENT ON INDEX macadam.segment_geom IS 'Segments by place';
+COMMENT ON INDEX macadam.segment_key IS 'Segments by key';
+COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
+COMMENT ON INDEX macadam.event_of_trip IS 'Defects of a trip, to forget it';
+COMMENT ON INDEX macadam.way_name IS 'Roads by name';
+COMMENT ON INDEX macadam.chunk_dirty_since IS 'Chunks to be fused, oldest first';
+)";
+
+// The same as drive_body.cpp reads. Differences wrap around there; in sound passes none does.
+const char* const schema_unpacking_sql = R"(
+CREATE FUNCTION macadam.passes_in(body bytea) RETURNS TABLE (
+    "offset" integer, occurrence bigint, iri_left_um integer, iri_right_um integer,
+    iri_centre_um integer, iri_um integer, sd_um integer, centre_only boolean, validity integer,
+    speed_mmps integer, covered_mm integer, confidence_ppm integer, t_ms bigint)
+LANGUAGE plpgsql IMMUTABLE STRICT PARALLEL SAFE SET search_path = pg_catalog AS $$
+DECLARE
+    at integer := 1;
+    size integer := length(body);
+    flags integer;
+    field integer;
+    number bigint;
+    shift integer;
+    part integer;
+    last bigint[] := array_fill(0::bigint, ARRAY[9]); -- left, right, centre, iri, sd, speed, ...
+BEGIN
+    IF size = 0 OR get_byte(body, 0) <> 1 THEN
+        RAISE EXCEPTION 'unknown format of packed passes';
+    END IF;
+    "offset" := 0;
+    WHILE at < size LOOP
+        FOR field IN -3..9 LOOP
+            IF field IN (-1, 0) THEN -- flags, validity
+                IF field = -1 THEN flags := get_byte(body, at);
+                ELSE validity := get_byte(body, at);
+                END IF;
+                at := at + 1;
+                CONTINUE;
+            END IF;
+            CONTINUE WHEN field BETWEEN 1 AND 3 AND (flags >> (field - 1)) & 1 = 0;
+            number := 0;
+            shift := 0;
+            LOOP
+                part := get_byte(body, at);
+                at := at + 1;
+                number := number | ((part & 127)::bigint << shift);
+                shift := shift + 7;
+                EXIT WHEN part < 128;
+            END LOOP;
+            IF field = -3 THEN
+                "offset" := "offset" + number;
+            ELSIF field = -2 THEN
+                occurrence := number;
+            ELSE
+                IF field = 4 AND flags & 3 = 3 THEN
+                    last[4] := (last[1] + last[2]) / 2;
+                END IF;
+                last[field] := last[field] + ((number >> 1) # (-(number & 1)));
+            END IF;
+        END LOOP;
+        iri_left_um := CASE WHEN flags & 1 = 1 THEN last[1] END;
+        iri_right_um := CASE WHEN flags & 2 = 2 THEN last[2] END;
+        iri_centre_um := CASE WHEN flags & 4 = 4 THEN last[3] END;
+        iri_um := last[4];
+        sd_um := last[5];
+        centre_only := flags & 8 = 8;
+        speed_mmps := last[6];
+        covered_mm := last[7];
+        confidence_ppm := last[8];
+        t_ms := last[9];
+        RETURN NEXT;
+    END LOOP;
+END $$;
+COMMENT ON FUNCTION macadam.passes_in(bytea) IS
+    'Unpacks the passes of a drive; offset is the number of the segment in its chunk';
+
+CREATE VIEW macadam.pass AS
+    SELECT drive.cell, drive.chunk + unpacked."offset" AS segment, drive.trip, unpacked.occurrence,
+           unpacked.iri_left_um, unpacked.iri_right_um, unpacked.iri_centre_um, unpacked.iri_um,
+           unpacked.sd_um, unpacked.centre_only, unpacked.validity, unpacked.speed_mmps,
+           unpacked.covered_mm, unpacked.confidence_ppm, unpacked.t_ms,
+           nullif(drive.drive, -1) AS drive
+    FROM macadam.drive CROSS JOIN LATERAL macadam.passes_in(drive.body) AS unpacked;
+COMMENT ON VIEW macadam.pass IS
+    'Passes of trips over segments, unpacked: iri in um/m, speed in mm/s, covered in mm, confidence in ppm, t in ms since the start of the trip';
+)";
+
+const char* const schema_roughness_sql = R"(
+CREATE VIEW macadam.roughness AS
+    SELECT segment.fid, segment.geom, segment.segment, segment.way_id, way.name, way.highway,
+           segment.direction, segment.from_m, segment.to_m,
+           state.iri_um / 1000.0::double precision AS iri,
+           state.sd_um / 1000.0::double precision AS iri_sd,
+           state.low_um / 1000.0::double precision AS iri_low,
+           state.high_um / 1000.0::double precision AS iri_high,
+           state.left_um / 1000.0::double precision AS iri_left,
+           state.right_um / 1000.0::double precision AS iri_right,
+           CASE WHEN state.centre_only THEN 'HRI>MRI' ELSE 'MRI' END AS "index",
+           state.class, state.passes, state.vehicles,
+           (to_timestamp(state.first_seen_ms / 1000.0) AT TIME ZONE 'UTC')::date AS first_seen,
+           (to_timestamp(state.last_seen_ms / 1000.0) AT TIME ZONE 'UTC')::date AS last_seen,
+           state.trend_um_per_year / 1000.0::double precision AS trend_per_year,
+           state.trend_sd_um_per_year / 1000.0::double precision AS trend_sd,
+           (to_timestamp(state.changed_ms / 1000.0) AT TIME ZONE 'UTC')::date AS changed,
+           state.change_um / 1000.0::double precision AS change,
+           state.validity
+    FROM macadam.segment_state AS state
+    JOIN macadam.segment ON segment.cell = state.cell AND segment.fid = state.fid
+    JOIN macadam.way ON way.way_id = segment.way_id;
+COMMENT ON VIEW macadam.roughness IS
+    'Roughness (IRI, mm/m) of the segments driven; QGIS shows it with its style';
+)";
+
+const char* const schema_cells_sql = R"(
+CREATE FUNCTION macadam.add_cell(cell integer) RETURNS void
+LANGUAGE plpgsql SET search_path = pg_catalog AS $$
+DECLARE
+    parent text;
+BEGIN
+    FOREACH parent IN ARRAY ARRAY['segment', 'drive', 'segment_state'] LOOP
+        EXECUTE format('CREATE TABLE macadam.%I PARTITION OF macadam.%I FOR VALUES IN (%s)',
+                       parent || '_' || cell, parent, cell);
+        EXECUTE format('COMMENT ON TABLE macadam.%I IS %L', parent || '_' || cell,
+                       'Rows of table ' || parent || ' in map tile ' || cell);
+    END LOOP;
+END $$;
+COMMENT ON FUNCTION macadam.add_cell(integer) IS 'Creates the partitions of a map tile';
+)";
+
+// Roles belong to the whole server. Who may not create them grants rights to others himself.
+const char* const schema_roles_sql = R"(
+DO $$
+DECLARE
+    role text;
+BEGIN
+    FOREACH role IN ARRAY ARRAY['macadam_reader', 'macadam_importer', 'macadam_operator'] LOOP
+        IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = role) THEN
+            IF (SELECT rolcreaterole OR rolsuper FROM pg_roles WHERE rolname = current_user) THEN
+                EXECUTE format('CREATE ROLE %I NOLOGIN', role);
+            ELSE
+                CONTINUE;
+            END IF;
+        END IF;
+        EXECUTE format('GRANT USAGE ON SCHEMA macadam TO %I', role);
+        EXECUTE format('GRANT SELECT ON {0} TO %I', role);
+        IF role <> 'macadam_reader' THEN
+            EXECUTE format('GRANT SELECT ON ALL TABLES IN SCHEMA macadam TO %I', role);
+            EXECUTE format('GRANT INSERT, UPDATE, DELETE ON {1} TO %I', role);
+            EXECUTE format('GRANT USAGE ON ALL SEQUENCES IN SCHEMA macadam TO %I', role);
+        END IF;
+        IF role = 'macadam_operator' THEN
+            EXECUTE format('GRANT INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA macadam TO %I', role);
+            EXECUTE format('GRANT UPDATE ON ALL SEQUENCES IN SCHEMA macadam TO %I', role);
+            EXECUTE format('REVOKE INSERT, UPDATE, DELETE ON macadam.migration FROM %I', role);
+        END IF;
+    END LOOP;
+END $$;
+REVOKE ALL ON FUNCTION macadam.add_cell(integer) FROM PUBLIC;
+)";
+
+// A reader remembers the snapshot in which it copied: what that did not see has changed since.
+const char* const changes_migration_sql = R"(
+CREATE TABLE macadam.chunk_change (
+    chunk bigint PRIMARY KEY,
+    changed xid8 NOT NULL DEFAULT pg_current_xact_id()
+);
+CREATE INDEX chunk_change_changed ON macadam.chunk_change (changed);
+COMMENT ON TABLE macadam.chunk_change IS 'Chunks that were fused, for those who keep copies: what a snapshot did not see';
+COMMENT ON COLUMN macadam.chunk_change.chunk IS 'Row of the first segment';
+COMMENT ON COLUMN macadam.chunk_change.changed IS 'Transaction that fused it last';
+COMMENT ON INDEX macadam.chunk_change_changed IS 'Chunks by the transaction that fused them';
+ALTER TABLE macadam.trip ADD COLUMN changed xid8 NOT NULL DEFAULT pg_current_xact_id();
+CREATE INDEX trip_changed ON macadam.trip (changed);
+COMMENT ON COLUMN macadam.trip.changed IS 'Transaction that stored it';
+COMMENT ON INDEX macadam.trip_changed IS 'Trips by the transaction that stored them';
+INSERT INTO macadam.meta VALUES ('store_rows', gen_random_uuid()::text) ON CONFLICT (key) DO NOTHING;
+DO $$
+DECLARE
+    role text;
+BEGIN
+    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_reader', 'macadam_importer', 'macadam_operator') LOOP
+        EXECUTE format('GRANT SELECT ON macadam.chunk_change, macadam.chunk_dirty TO %I', role);
+        IF role <> 'macadam_reader' THEN
+            EXECUTE format('GRANT INSERT, UPDATE, DELETE ON macadam.chunk_change TO %I', role);
+        END IF;
+    END LOOP;
+END $$;
+)";
+
+} // namespace macadam

@@ -1,0 +1,19 @@
+#pragma once
+
+namespace macadam {
+
+// Statements that make the schema of a database on a server; its tables are made from
+// server_tables().
+
+extern const char* const schema_begin_sql; ///< schema, and the table of migrations
+extern const char* const schema_indexes_sql;
+extern const char* const schema_unpacking_sql; ///< function and view that unpack passes
+extern const char* const schema_roughness_sql; ///< the view for QGIS
+extern const char* const schema_cells_sql;     ///< function that creates partitions
+/// Rights: {0} stands for what all read, {1} for what importers write.
+extern const char* const schema_roles_sql;
+
+/// Migration 4: what changed, for copies that are kept.
+extern const char* const changes_migration_sql;
+
+} // namespace macadam
