@@ -1,5 +1,7 @@
 #include "storage/store/fusion/store_version.hpp"
 
+#include <fmt/format.h>
+
 namespace macadam {
 namespace {
 
@@ -14,7 +16,13 @@ std::vector<std::int64_t> rows_of(Statement& select) {
 } // namespace
 
 StoreVersion moment_of(Database& database) {
-    return {database.number("SELECT coalesce(max(id), 0) FROM audit WHERE what <> 'import'"),
+    constexpr int beyond_audit = 40; // bits
+    const auto select = fmt::format(
+        "SELECT coalesce(max(id), 0) + coalesce((SELECT CAST(value AS INTEGER) << {} FROM meta"
+        " WHERE key = '{}'), 0) FROM audit WHERE what <> 'import'",
+        beyond_audit,
+        late_trips_key);
+    return {database.number(select.c_str()),
             database.number("SELECT coalesce(max(id), 0) FROM main.trip")};
 }
 

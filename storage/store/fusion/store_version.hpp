@@ -10,12 +10,17 @@ namespace macadam {
 /// Version of a database, as far as segment states depend on it. Between two versions with the same
 /// `maintenance`, only trips were added; passes, traces and fusion rules are otherwise unchanged.
 /// The added trips have rows above `last_trip` of the first version.
+/// In copies of databases on servers, where trips are also added below the last one, that counts as
+/// other maintenance.
 struct StoreVersion {
     std::int64_t maintenance; ///< row in table audit of the last operation other than an import
     std::int64_t last_trip;   ///< row of the last trip
 };
 
 StoreVersion moment_of(Database& database);
+
+/// Row of table meta: number of times that trips were added below the last one.
+inline constexpr const char* late_trips_key = "late_trips";
 
 /// Chunks with passes or traces of trips added since `before`, in the order of their rows. For
 /// versions with the same `maintenance`.

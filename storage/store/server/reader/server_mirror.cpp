@@ -167,6 +167,13 @@ public:
         }
         replace_chunks(chunks_at(std::move(changed)));
         if (has_trips_) {
+            if (!trips.empty() &&
+                trips.front() < file_->number("SELECT coalesce(max(id), 0) FROM trip")) {
+                file_
+                    ->prepare("INSERT INTO meta VALUES (?, '1') ON CONFLICT (key) DO UPDATE SET"
+                              " value = CAST(value AS INTEGER) + 1")
+                    .run(late_trips_key);
+            }
             constexpr std::size_t most = 2000;
             for (std::size_t done = 0; done < trips.size(); done += most) {
                 rows_.copy_trips(

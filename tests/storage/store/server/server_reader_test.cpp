@@ -115,7 +115,10 @@ TEST_F(ServerReaders, FollowATransactionThatCommitsAfterALaterOne) {
                " '', '', 'kf', 1, 0, 1, 0)");
     add_rich_trip(*early.trips, 1);
     EXPECT_EQ(read().info().trips, 1U);
+    const auto before = read().moment();
+    EXPECT_TRUE(read().changed_since(before));
     holder.run("COMMIT"); // its number is lower than that of the trip that was copied
+    EXPECT_FALSE(read().changed_since(before)); // what is above that number would not be all
     EXPECT_EQ(read().info().trips, 2U);
 }
 
