@@ -8,7 +8,6 @@
 #include "estimator/events/event_detection.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
-#include "estimator/smoother/vibration/car_from_vibration.hpp"
 #include "mapping/passes/trip_cutting.hpp"
 
 #include <fmt/format.h>
@@ -261,11 +260,13 @@ std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
     return events;
 }
 
-bool uses_vertical(const EstimatorConfig& config) {
-    return config.channels != Channels::lateral && (!config.sensors || config.sensors->vertical);
-}
-
 } // namespace
+
+std::string holder_text(const Resonance& mount) {
+    return fmt::format("the sensor's holder resonates at {:.1f} Hz; this was removed, and the "
+                       "interval is wider. Fix the sensor firmly to the car",
+                       mount.hz);
+}
 
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
     const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
@@ -285,7 +286,6 @@ TripTrace trace_of(const TripLog& trip,
     };
     std::optional<TunedCar> car;
     auto estimator = config.estimator;
-    Resonance mount{};
     if (config.estimator.method == Method::smoother && !found.spans.empty()) {
         const auto longest = std::ranges::max(found.spans, {}, samples_in);
         VibrationSpectra spectra;
@@ -294,13 +294,9 @@ TripTrace trace_of(const TripLog& trip,
                 add(spectra, stretch_of(span), vehicle.imu);
             }
         }
-        const auto vibrating = car_from_vibration(spectra, vehicle);
-        if (vibrating.found_axles && estimator.tracks && !estimator.sensors) {
-            estimator.sensors = SensorSet{.vertical = true, .pitch = true, .yaw = true};
-        }
-        mount = vibrating.mount;
-        car = car_in(
-            stretch_of(longest), vibrating.vehicle, estimator, progress.stop, vibrating.mount);
+        auto of_trip = car_of_trip(spectra, stretch_of(longest), vehicle, estimator, progress.stop);
+        car = std::move(of_trip.car);
+        estimator = of_trip.config;
     }
     IriTrace roughness{.runs = {},
                        .slow = slow_parts(motion.odometer, config.stretch.min_speed_mps)};
@@ -327,11 +323,8 @@ TripTrace trace_of(const TripLog& trip,
         }
     }
     auto warnings = lateral_text(roughness, config.estimator.channels);
-    if (mount.hz > 0) {
-        warnings.push_back(fmt::format("the sensor's holder resonates at {:.1f} Hz; this was "
-                                       "removed, and the interval is wider. Fix the sensor firmly "
-                                       "to the car",
-                                       mount.hz));
+    if (car && car->mount.hz > 0) {
+        warnings.push_back(holder_text(car->mount));
     }
     std::ranges::move(warnings_of(trip, motion.odometer, motion.mounting),
                       std::back_inserter(warnings));

@@ -5,6 +5,7 @@
 #include "estimator/motion/heading.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
+#include "estimator/smoother/vibration/resonance.hpp"
 #include "mapping/events/pass_event.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/passes/chunk_trace.hpp"
@@ -37,6 +38,9 @@ struct TripTrace {
     RowAudit use;
     std::vector<std::string> warnings;
 };
+
+/// Returns the warning about a holder that resonates.
+std::string holder_text(const Resonance& mount);
 
 /// Returns the distance of the antenna ahead of the centre of gravity. The log counts from the
 /// front axle; a car with one axle has it under its centre of gravity.

@@ -91,6 +91,9 @@ public:
                 console.warn(warning);
             }
         }
+        if (live.mount().hz > 0 && said_.insert("holder").second) {
+            console.warn(holder_text(live.mount()));
+        }
         if (const auto latency_s = live.found_latency_s(); latency_s && !latency_said_) {
             console.warn(fmt::format("GNSS delay estimated at {:.2f} s", *latency_s));
             latency_said_ = true;

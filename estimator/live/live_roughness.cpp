@@ -1,7 +1,6 @@
 #include "estimator/live/live_roughness.hpp"
 
 #include "estimator/motion/mounting.hpp"
-#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,7 +131,8 @@ LiveRoughness::LiveRoughness(Vehicle vehicle,
 }
 
 double LiveRoughness::rear_m() const {
-    return vehicle_.axles ? vehicle_.axles->cg_to_front_m - vehicle_.axles->wheelbase_m : 0;
+    const auto& axles = car_ ? car_->car.vehicle.axles : vehicle_.axles;
+    return axles ? axles->cg_to_front_m - axles->wheelbase_m : 0;
 }
 
 void LiveRoughness::go_on(const TripLog& recent,
@@ -167,7 +167,12 @@ void LiveRoughness::tune(const TripLog& recent,
         (car_ && (!enough || tuned_by_s_ >= max_tuning_s))) {
         return;
     }
-    car_ = car_in(make_stretch(recent, span, odometer, mounting, stretch_), vehicle_, estimator_);
+    const auto stretch = make_stretch(recent, span, odometer, mounting, stretch_);
+    VibrationSpectra spectra;
+    if (uses_vertical(estimator_)) {
+        add(spectra, stretch, vehicle_.imu);
+    }
+    car_ = car_of_trip(spectra, stretch, vehicle_, estimator_);
     tuned_by_s_ = length_s >= tuned_every_s ? length_s : 0;
 }
 
@@ -195,7 +200,7 @@ void LiveRoughness::extend(const TripLog& recent,
     config.rate_hz =
         grid_rate_hz(rate_hz_, fastest_mps(odometer, t_s[window.first], last_s), stretch_);
     const auto stretch = make_stretch(recent, window, odometer, mounting, config);
-    const auto found = car_ ? smoothed_iri(stretch, *car_, estimator_)
+    const auto found = car_ ? smoothed_iri(stretch, car_->car, car_->config)
                             : estimate_iri(stretch, vehicle_, estimator_);
     if (found.centre_mm_per_m.empty()) {
         return;

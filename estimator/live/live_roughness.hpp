@@ -2,7 +2,7 @@
 
 #include "estimator/motion/stretch.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
-#include "estimator/smoother/car_tuning.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <optional>
 
@@ -45,6 +45,9 @@ public:
 
     const Vehicle& vehicle() const { return vehicle_; }
 
+    /// Resonance of the sensor's holder, as far as it is known; hz is 0 without one.
+    Resonance mount() const { return car_ ? car_->car.mount : Resonance{}; }
+
     /// End of the final part of the trace, whether or not it has values.
     double known_until_m() const { return known_until_m_; }
 
@@ -69,7 +72,7 @@ private:
     StretchConfig stretch_;
     EstimatorConfig estimator_;
     LiveWindow window_;
-    std::optional<TunedCar> car_;
+    std::optional<CarOfTrip> car_;
     double tuned_by_s_ = 0;
     double rate_hz_ = 0; ///< rate of the log
     IriTrace trace_;     ///< the last run belongs to the most recent stretch

@@ -63,6 +63,9 @@ public:
     /// Estimated latency of the receiver, if the log does not state it and both speeds determine
     /// it.
     std::optional<double> found_latency_s() const { return found_latency_s_; }
+
+    /// Resonance of the sensor's holder, once found.
+    Resonance mount() const { return roughness_.mount(); }
     std::size_t dropped() const { return recent_.dropped(); } ///< number of samples out of order
 
 private:

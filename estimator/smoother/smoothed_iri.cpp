@@ -3,6 +3,7 @@
 #include "estimator/smoother/car/linear_car.hpp"
 #include "estimator/smoother/friction.hpp"
 #include "estimator/smoother/stretch_record.hpp"
+#include "estimator/smoother/vibration/car_from_vibration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -245,6 +246,24 @@ TunedCar car_in(const Stretch& stretch,
         tuned.iri_sd = std::hypot(tuned.iri_sd, untuned_iri_sd(vehicle, false));
     }
     return tuned;
+}
+
+CarOfTrip car_of_trip(const VibrationSpectra& spectra,
+                      const Stretch& stretch,
+                      const Vehicle& vehicle,
+                      const EstimatorConfig& config,
+                      const std::stop_token& stop) {
+    const auto found = car_from_vibration(spectra, vehicle);
+    auto of_found = config;
+    if (found.found_axles && config.tracks && !config.sensors) {
+        of_found.sensors = SensorSet{.vertical = true, .pitch = true, .yaw = true};
+    }
+    auto car = car_in(stretch, found.vehicle, of_found, stop, found.mount);
+    return {std::move(car), of_found};
+}
+
+bool uses_vertical(const EstimatorConfig& config) {
+    return config.channels != Channels::lateral && (!config.sensors || config.sensors->vertical);
 }
 
 IriRun smoothed_iri(const Stretch& stretch,

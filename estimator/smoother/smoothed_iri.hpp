@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/smoother/car_tuning.hpp"
+#include "estimator/smoother/vibration/vibration_spectra.hpp"
 
 namespace macadam {
 
@@ -17,6 +18,27 @@ TunedCar car_in(const Stretch& stretch,
                 const EstimatorConfig& config,
                 const std::stop_token& stop = {},
                 const Resonance& mount = {});
+
+/// Car as the vibration of a trip tells it, and the configuration with which it is read: the tracks
+/// are not told apart under axles that were found.
+struct CarOfTrip {
+    TunedCar car;
+    EstimatorConfig config;
+};
+
+/// Finds what is not stated of the car and of the sensor's mount from the spectra of a trip
+/// (car_from_vibration()), then tunes the car on one of its stretches, by car_in().
+///
+/// \param spectra  empty where vertical acceleration is not used: the vehicle is tuned as it is
+/// 	hrows InputError  after a stop request.
+CarOfTrip car_of_trip(const VibrationSpectra& spectra,
+                      const Stretch& stretch,
+                      const Vehicle& vehicle,
+                      const EstimatorConfig& config,
+                      const std::stop_token& stop = {});
+
+/// Returns whether the estimate uses vertical acceleration, which the spectra need.
+bool uses_vertical(const EstimatorConfig& config);
 
 /// Division of a stretch into pieces for smoothing.
 struct PieceConfig {

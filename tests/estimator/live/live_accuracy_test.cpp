@@ -137,4 +137,41 @@ TEST(LiveTrace, OfThePublishedFilterIsAsNearToTheTruthAsTheWholeTrip) {
     EXPECT_LT(live, 1.1 * offline);
 }
 
+/// A holder that resonates at 15 Hz makes the road look rough until a minute at several speeds has
+/// told it; then it is removed as from a whole trip.
+TEST(LiveTrace, TakesAHolderThatResonatesOffTheRoad) {
+    constexpr double known_from_m = 1400; // a minute at 70 km/h, and some
+    auto recipe = drive_in(worlds()[5], 70);
+    recipe.length_m = 2200;
+    recipe.speed_swing = 0.2;
+    recipe.imu.mount_hz = 15;
+    const auto [stretch, truth] = driven_road(recipe);
+    auto config = live_config(Method::smoother);
+    config.estimator.sensors = vertical_and_pitch;
+    Resonance mount;
+    const auto rows = told_live(
+        trip_of(stretch),
+        recipe.car.vehicle,
+        config,
+        [&](const LiveTrace& live, const std::vector<LiveRow>&) { mount = live.mount(); });
+    EXPECT_NEAR(mount.hz, 15, 0.7);
+    std::vector<Held> before;
+    std::vector<Held> after;
+    for (const auto& row : rows) {
+        if (row.mean.validity == validity::ok) {
+            const double from_m = row.from_m + stretch.travel_m.front();
+            const double hri = true_over(truth, Index::hri, from_m, from_m + row.to_m - row.from_m);
+            if (row.to_m < 500) {
+                before.push_back({*row.mean.hri_mm_per_m, hri});
+            } else if (row.from_m > known_from_m) {
+                after.push_back({*row.mean.hri_mm_per_m, hri});
+            }
+        }
+    }
+    ASSERT_GE(before.size(), 15U);
+    ASSERT_GE(after.size(), 30U);
+    EXPECT_GT(errors_of(before).bias, 0.2);
+    EXPECT_NEAR(errors_of(after).bias, 0, 0.1);
+}
+
 } // namespace macadam::testing
