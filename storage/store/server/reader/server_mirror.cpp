@@ -39,9 +39,18 @@ namespace fs = std::filesystem;
 /// Which database a server has, and in which state but for new trips and fusion.
 struct MirroredDatabase {
     std::string database; ///< on any server, in letters of file names
+    std::string address;  ///< likewise: a clone of a server is another one, with the same numbers
     std::string state;    ///< likewise
     friend bool operator==(const MirroredDatabase&, const MirroredDatabase&) = default;
 };
+
+/// Letters that stand for a text, whatever a server puts into it.
+std::string letters_of(const std::string& text) {
+    constexpr std::size_t letters = 16;
+    Sha256 hash;
+    hash.add(text);
+    return hash.hex().substr(0, letters);
+}
 
 MirroredDatabase mirrored(ServerConnection& server) {
     // A promoted standby may lack transactions and give their numbers to others: another timeline.
@@ -53,12 +62,13 @@ MirroredDatabase mirrored(ServerConnection& server) {
         " (SELECT string_agg(value, ' ' ORDER BY key) FROM macadam.meta"
         " WHERE key IN ('network_rows', 'store_rows')) FROM pg_control_system()");
     const auto& row = found.at(0);
-    Sha256 hash;
+    std::string state;
     for (std::size_t i = 2; i < row.size(); ++i) {
-        hash.add(row[i].value_or("") + "\n");
+        state += row[i].value_or("") + "\n";
     }
-    constexpr std::size_t letters = 16;
-    return {row[0].value_or("") + "-" + row[1].value_or(""), hash.hex().substr(0, letters)};
+    return {letters_of(row[0].value_or("") + "\n" + row[1].value_or("")),
+            letters_of(server.address()),
+            letters_of(state)};
 }
 
 std::string_view suffix_of(ServerContent content) {
@@ -66,9 +76,12 @@ std::string_view suffix_of(ServerContent content) {
 }
 
 fs::path mirror_file(const MirroredDatabase& of, ServerContent content) {
-    return mirror_folder() /
-           fmt::format(
-               "{}-{}-{}-{}.gpkg", of.database, of.state, suffix_of(content), store_version);
+    return mirror_folder() / fmt::format("{}-{}-{}-{}-{}.gpkg",
+                                         of.database,
+                                         of.address,
+                                         of.state,
+                                         suffix_of(content),
+                                         store_version);
 }
 
 void remove_mirror(const fs::path& file) {
@@ -89,7 +102,7 @@ void remove_stale_mirrors(const MirroredDatabase& of, ServerContent content) {
         const auto& file = entry.path();
         const auto name = file.filename().string();
         const bool is_earlier =
-            name.starts_with(of.database + "-") &&
+            name.starts_with(of.database + "-" + of.address + "-") &&
             name.find(fmt::format("-{}-", suffix_of(content))) != std::string::npos;
         const auto age = fs::file_time_type::clock::now() - entry.last_write_time(error);
         if (file.extension() == ".gpkg" && file != kept && (is_earlier || age > month)) {
@@ -117,6 +130,7 @@ void make_mirror(ServerConnection& server,
     fill_copy(rows, database, content);
     put_snapshot(database, snapshot_of(server));
     database.close();
+    fs::permissions(whole.main_file(), fs::perms::owner_read | fs::perms::owner_write);
     remove_leftovers_of(file);
     whole.commit_new();
 }
@@ -194,9 +208,11 @@ private:
     /// Small tables that importers change; a name is in one as long as its import runs.
     static constexpr std::array notes{"import_note", "forgotten"};
 
-    /// Rows of transactions that the snapshot did not see.
+    /// Rows of transactions that the snapshot did not see. Later ones than now are another
+    /// server's, from which pg_dump brought the rows.
     std::vector<std::int64_t> since(const std::string& snapshot, const std::string& select) {
         return server_->numbers(select + " WHERE changed >= pg_snapshot_xmin($1::pg_snapshot)"
+                                         " AND changed < pg_snapshot_xmax(pg_current_snapshot())"
                                          " AND NOT pg_visible_in_snapshot(changed, $1) ORDER BY 1",
                                 {snapshot});
     }

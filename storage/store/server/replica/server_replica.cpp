@@ -56,8 +56,8 @@ private:
                                          digest)};
         }
         all.commit();
+        remove_mirrors_with_trips(server_); // even if a server of cells fails now
         drop_unused_cell_tables(server_);
-        remove_mirrors_with_trips(server_);
         recorder_.emplace(database);
     }
 

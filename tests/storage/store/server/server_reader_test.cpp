@@ -94,6 +94,25 @@ TEST_F(ServerReaders, LeaveACopyAloneWhileNothingChanges) {
     EXPECT_NE(moment_of_copy(), moment);
 }
 
+TEST_F(ServerReaders, LeaveACopyOfRowsAloneThatPgDumpBroughtFromABusierServer) {
+    import_rich_trips(*database_.import().trips, 2);
+    ServerConnection{database_.name()}.run(
+        "UPDATE macadam.trip SET changed = '1000000000000';"
+        "UPDATE macadam.chunk_change SET changed = '1000000000000'");
+    const auto moment = moment_of_copy();
+    ServerConnection{database_.name()}.run(
+        "CREATE TABLE public.other (i int); DROP TABLE public.other"); // one transaction later
+    EXPECT_EQ(moment_of_copy(), moment);
+    add_rich_trip(*database_.import().trips, 2);
+    EXPECT_EQ(read().info().trips, 3U);
+}
+
+TEST_F(ServerReaders, KeepTheCopyFromOtherUsers) {
+    const auto file = refreshed();
+    EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(fs::status(mirror_folder()).permissions(), fs::perms::owner_all);
+}
+
 TEST_F(ServerReaders, MakeTheCopyAnewAfterForgettingAndKeepNoOther) {
     import_rich_trips(*database_.import().trips, 3);
     const auto before = refreshed();
@@ -104,6 +123,18 @@ TEST_F(ServerReaders, MakeTheCopyAnewAfterForgettingAndKeepNoOther) {
     EXPECT_EQ(read().digest(), digest_now());
     EXPECT_NE(refreshed(), before);
     EXPECT_EQ(number_of_copies(), 1U);
+}
+
+TEST_F(ServerReaders, KeepACopyForEachAddressAsACloneOfAServerHasItsNumbers) {
+    import_rich_trips(*database_.import().trips, 2);
+    ServerConnection other{database_.name() + "&application_name=other"};
+    const auto copy = refreshed_mirror(other, ServerContent::all, {}, {});
+    const auto usual = refreshed();
+    EXPECT_NE(usual, copy);
+    EXPECT_EQ(refreshed_mirror(other, ServerContent::all, {}, {}), copy);
+    EXPECT_EQ(number_of_copies(), 2U);
+    database_.maintain().maintenance.forget({.trips = {trip_record(1).sha256}, .vehicles = {}}, {});
+    EXPECT_EQ(number_of_copies(), 0U);
 }
 
 TEST_F(ServerReaders, FollowATransactionThatCommitsAfterALaterOne) {
