@@ -131,7 +131,7 @@ std::vector<MapCell> cells_of(ServerConnection& front) {
     std::vector<MapCell> cells;
     for (const auto& row : front.rows(fmt::format(
              "SELECT cell, count(*), {} FROM macadam.segment GROUP BY cell ORDER BY cell",
-             has_places ? "(SELECT macadam.connection_of(server) FROM macadam.cell_place"
+             has_places ? "(SELECT macadam_cells.connection_of(server) FROM macadam.cell_place"
                           " WHERE cell_place.cell = segment.cell)"
                         : "NULL"))) {
         cells.push_back({std::stoi(row[0].value_or("0")),
@@ -206,7 +206,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     }
     try {
         front.rows("SELECT macadam.drop_cell_tables(name, ARRAY(SELECT number FROM"
-                   " macadam.cell_place WHERE server = name)) FROM macadam.cell_server");
+                   " macadam.cell_place WHERE server = name)) FROM macadam_cells.address");
     } catch (const InputError& error) {
         throw ServerTrouble{fmt::format("{}; replaced rows are still there, and are removed by "
                                         "the next command of this kind",

@@ -15,19 +15,39 @@ namespace {
 // Parts of the texts below: {columns} "cell, chunk, ..." of table drive, {arrays} "cell integer[],
 // ...", {values} "$3, $4, ...", as many.
 
+/// On the front, as a superuser, with whose rights PL/Proxy connects: whoever owns the roads could
+/// otherwise lead it to any server that trusts this one.
+constexpr const char* front_addresses = R"sql(
+CREATE SCHEMA macadam_cells;
+CREATE TABLE macadam_cells.address (name text PRIMARY KEY, connection text NOT NULL UNIQUE);
+CREATE FUNCTION macadam_cells.connection_of(server text) RETURNS text LANGUAGE sql STABLE
+SET search_path = pg_catalog AS 'SELECT connection FROM macadam_cells.address WHERE name = server';
+COMMENT ON SCHEMA macadam_cells IS 'Addresses of other servers that hold cells of the road database';
+COMMENT ON TABLE macadam_cells.address IS 'Other servers that hold cells of this database';
+COMMENT ON COLUMN macadam_cells.address.name IS 'Name of the foreign server';
+COMMENT ON COLUMN macadam_cells.address.connection IS 'How this server connects to it; passwords are in .pgpass of its user';
+COMMENT ON FUNCTION macadam_cells.connection_of(text) IS 'How this server connects to one that holds cells';
+DO $$
+DECLARE
+    role text;
+BEGIN
+    FOR role IN SELECT nspowner::regrole::text FROM pg_namespace WHERE nspname = 'macadam'
+                UNION SELECT rolname::text FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
+        EXECUTE format('GRANT USAGE ON SCHEMA macadam_cells TO %s', role);
+        EXECUTE format('GRANT SELECT, REFERENCES ON macadam_cells.address TO %s', role);
+    END LOOP;
+END $$;
+)sql";
+
 /// On the front, as its owner.
 constexpr const char* front_tables = R"sql(
-CREATE TABLE macadam.cell_server (name text PRIMARY KEY, connection text NOT NULL UNIQUE);
 CREATE TABLE macadam.cell_place (
     cell integer PRIMARY KEY,
-    server text NOT NULL REFERENCES macadam.cell_server,
+    server text NOT NULL REFERENCES macadam_cells.address,
     number bigint NOT NULL
 );
 CREATE SEQUENCE macadam.cell_number;
 CREATE TABLE macadam.unfinished (trip bigint PRIMARY KEY, at timestamptz NOT NULL DEFAULT now());
-COMMENT ON TABLE macadam.cell_server IS 'Other servers that hold cells of this database';
-COMMENT ON COLUMN macadam.cell_server.name IS 'Name of the foreign server';
-COMMENT ON COLUMN macadam.cell_server.connection IS 'How this server connects to it; passwords are in .pgpass of its user';
 COMMENT ON TABLE macadam.cell_place IS 'Cells on other servers';
 COMMENT ON COLUMN macadam.cell_place.cell IS 'Map tile of zoom 8, as the number of its quadkey';
 COMMENT ON COLUMN macadam.cell_place.server IS 'Server that holds its drives and fused values';
@@ -36,10 +56,6 @@ COMMENT ON SEQUENCE macadam.cell_number IS 'Numbers of tables on other servers';
 COMMENT ON TABLE macadam.unfinished IS 'Trips whose drives other servers may have, though the trip was not stored: to be removed there';
 COMMENT ON COLUMN macadam.unfinished.trip IS 'Row that the trip would have had';
 COMMENT ON COLUMN macadam.unfinished.at IS 'When its drives were sent';
-
-CREATE FUNCTION macadam.connection_of(server text) RETURNS text LANGUAGE sql STABLE
-SET search_path = pg_catalog AS 'SELECT connection FROM macadam.cell_server WHERE name = server';
-COMMENT ON FUNCTION macadam.connection_of(text) IS 'How this server connects to one that holds cells';
 
 CREATE OR REPLACE FUNCTION macadam.add_cell(cell integer) RETURNS void
 LANGUAGE plpgsql SET search_path = pg_catalog AS $$
@@ -90,7 +106,7 @@ DECLARE
     role text;
 BEGIN
     FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
-        EXECUTE format('GRANT SELECT ON macadam.cell_server, macadam.cell_place TO %I', role);
+        EXECUTE format('GRANT SELECT ON macadam.cell_place TO %I', role);
         EXECUTE format('GRANT SELECT, INSERT, UPDATE, DELETE ON macadam.unfinished TO %I', role);
     END LOOP;
 END $$;
@@ -101,11 +117,11 @@ constexpr const char* front_functions = R"sql(
 CREATE EXTENSION IF NOT EXISTS postgres_fdw SCHEMA public;
 CREATE EXTENSION IF NOT EXISTS plproxy SCHEMA public;
 CREATE FUNCTION macadam.put_drives(server text, target text, {arrays}) RETURNS bigint
-LANGUAGE plproxy AS $$ CONNECT macadam.connection_of(server); $$;
+LANGUAGE plproxy AS $$ CONNECT macadam_cells.connection_of(server); $$;
 CREATE FUNCTION macadam.add_cell_tables(server text, cell integer, number bigint, copied bigint)
-RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam.connection_of(server); $$;
+RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam_cells.connection_of(server); $$;
 CREATE FUNCTION macadam.drop_cell_tables(server text, kept bigint[])
-RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam.connection_of(server); $$;
+RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam_cells.connection_of(server); $$;
 COMMENT ON FUNCTION macadam.put_drives IS 'Stores drives in a table of another server, in a transaction of its own; what is there already stays';
 COMMENT ON FUNCTION macadam.add_cell_tables IS 'Creates tables of a cell on another server, filled from those of another number there';
 COMMENT ON FUNCTION macadam.drop_cell_tables IS 'Removes tables of cells on another server but those of these numbers';
@@ -302,7 +318,7 @@ std::optional<CellServer> cell_server_at(ServerConnection& front, const std::str
         return std::nullopt;
     }
     const auto found =
-        front.rows("SELECT name FROM macadam.cell_server WHERE connection = $1", {connection});
+        front.rows("SELECT name FROM macadam_cells.address WHERE connection = $1", {connection});
     return found.empty() ? std::nullopt
                          : std::optional{CellServer{found[0][0].value_or(""), connection}};
 }
@@ -319,6 +335,7 @@ CellServer add_cell_server(ServerConnection& front, const std::string& address) 
     take_database(front); // changes of tables that importers use would stop in one another's way
     ServerTransaction all{front};
     if (!has_cells(front)) {
+        front.run(front_addresses);
         act_as_owner(front);
         front.run(front_tables);
         front.run("RESET ROLE");
@@ -326,10 +343,11 @@ CellServer add_cell_server(ServerConnection& front, const std::string& address) 
     }
     CellServer server;
     server.name = fmt::format("macadam_cells_{}",
-                              front.number("SELECT count(*) + 1 FROM macadam.cell_server"));
+                              front.number("SELECT count(*) + 1 FROM macadam_cells.address"));
     server.connection = connection_text(address);
     add_foreign_server(front, server, address);
-    front.rows("INSERT INTO macadam.cell_server VALUES ($1, $2)", {server.name, server.connection});
+    front.rows("INSERT INTO macadam_cells.address VALUES ($1, $2)",
+               {server.name, server.connection});
     cell.commit();
     all.commit();
     release_database(front);

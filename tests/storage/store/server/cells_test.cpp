@@ -33,6 +33,7 @@ namespace macadam::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 constexpr std::int64_t ways = 7;
@@ -403,6 +404,21 @@ TEST_F(Cells, AreMovedByThoseOnlyWhoMay) {
     ServerConnection owner{front_};
     move_cell(owner, numbers_.at(1), west_); // known by now
     EXPECT_THAT(cells_of(owner).at(1).connection, HasSubstr("dbname='west'"));
+}
+
+TEST_F(Cells, KeepTheirAddressesFromTheOwnerOfTheRoads) {
+    move(0, west_);
+    for (const auto* const change :
+         {"UPDATE macadam_cells.address SET connection = 'dbname=front user=boss'",
+          "CREATE OR REPLACE FUNCTION macadam_cells.connection_of(server text) RETURNS text"
+          " LANGUAGE sql AS $$ SELECT 'dbname=front user=boss' $$",
+          "DROP TABLE macadam_cells.address CASCADE",
+          "CREATE FUNCTION macadam.own(server text) RETURNS bigint LANGUAGE plproxy AS"
+          " $$ CONNECT 'dbname=front user=boss'; $$"}) {
+        EXPECT_THAT(refusal_of([&] { ServerConnection{front_}.run(change); }),
+                    AnyOf(HasSubstr("permission denied"), HasSubstr("must be owner")))
+            << change;
+    }
 }
 
 } // namespace
