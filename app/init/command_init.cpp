@@ -129,13 +129,15 @@ BackgroundSource background_of(const std::filesystem::path& map,
 }
 
 /// Reads a background into a database and states its size and time.
+/// \param detail  for the audit; "" in a new database
 void add_background(const std::filesystem::path& store,
                     const RoadNetwork& roads,
                     const BackgroundSource& source,
+                    const std::string& detail,
                     const Console& console) {
     constexpr double bytes_per_mb = 1e6;
     const auto begin = std::chrono::steady_clock::now();
-    const auto size = put_background(store, background_box(roads), source);
+    const auto size = put_background(store, background_box(roads), source, detail);
     if (!size.is_empty()) {
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
         console.say(fmt::format("{}: background of {:.1f} MB with {}, read in {:.1f} s",
@@ -217,7 +219,7 @@ void make_store(const InitOptions& options, const Console& console) {
     if (const auto background = options.network
                                     ? background_of(*options.network, roads, options, console)
                                     : BackgroundSource{}) {
-        add_background(options.store, roads, background, console);
+        add_background(options.store, roads, background, {}, console);
     }
     whole.keep();
     console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",
@@ -254,7 +256,11 @@ void update_store(const InitOptions& options, const Console& console) {
     const auto background = background_of(*options.update, after, options, console);
     const bool is_removed = !options.background && !is_server_address(options.store.string());
     if (background || is_removed) {
-        add_background(options.store, after, background, console);
+        add_background(options.store,
+                       after,
+                       background,
+                       background ? options.update->filename().string() : "removed",
+                       console);
     }
     if (options.json) {
         print(json_of(update));

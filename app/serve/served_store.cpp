@@ -99,9 +99,10 @@ ServedStore::Versions ServedStore::versions_now() {
     auto& database = watch_->database;
     const Transaction one_moment{database, Transaction::Kind::read};
     const auto published =
-        fmt::format("{}\n{}",
+        fmt::format("{}\n{}\n{}",
                     watch_->inode,
-                    database.number("SELECT coalesce(max(number), 0) FROM publication"));
+                    database.number("SELECT coalesce(max(number), 0) FROM publication"),
+                    count_of_maps(database));
     const auto [maintenance, last_trip] = moment_of(database);
     auto copied = database.prepare("SELECT value FROM meta WHERE key = ?"); // of a server
     const auto trips = fmt::format("{}\n{}\n{}{}",

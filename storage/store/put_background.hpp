@@ -5,6 +5,7 @@
 #include "storage/store/background/background_rows.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace macadam {
 
@@ -13,10 +14,12 @@ namespace macadam {
 ///
 /// \param box     background_box() of its roads
 /// \param source  null: the background is removed
+/// \param detail  of the entry in the audit; "": none, in a new database
 /// \throws InputError  if it is not a road database.
 BackgroundSize put_background(const std::filesystem::path& store,
                               const GeoBox& box,
                               const BackgroundSource& source,
+                              const std::string& detail = {},
                               LockWaitPolicy wait_policy = {});
 
 } // namespace macadam

@@ -26,6 +26,11 @@ StoreVersion moment_of(Database& database) {
             database.number("SELECT coalesce(max(id), 0) FROM main.trip")};
 }
 
+std::int64_t count_of_maps(Database& database) {
+    return database.number(
+        "SELECT count(*) FROM main.audit WHERE what IN ('network', 'background')");
+}
+
 std::vector<std::int64_t> chunks_driven_since(Database& database, const StoreVersion& before) {
     auto select = database.prepare(
         "SELECT segment.strip FROM main.pass AS pass CROSS JOIN segment"

@@ -19,6 +19,9 @@ struct StoreVersion {
 
 StoreVersion moment_of(Database& database);
 
+/// Number of times that the roads or their background were replaced. It tells nothing of trips.
+std::int64_t count_of_maps(Database& database);
+
 /// Row of table meta: number of times that trips were added below the last one.
 inline constexpr const char* late_trips_key = "late_trips";
 

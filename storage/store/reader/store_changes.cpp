@@ -46,7 +46,9 @@ StoreMoment StoreReader::moment() const {
     StoreMoment moment{.publication =
                            database.number("SELECT coalesce(max(number), 0) FROM publication"),
                        .published_alone = store_->published_alone};
-    if (!moment.published_alone) {
+    if (moment.published_alone) {
+        moment.maintenance = count_of_maps(database); // no more of it shows
+    } else {
         const auto [maintenance, last_trip] = moment_of(database);
         moment.maintenance = maintenance;
         moment.last_trip = last_trip;

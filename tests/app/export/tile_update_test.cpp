@@ -3,6 +3,8 @@
 #include "app/serve/live/tile_maker.hpp"
 #include "app/tiles/tile_pyramid.hpp"
 #include "app/tiles/tile_source.hpp"
+#include "mapping/background/background.hpp"
+#include "storage/store/put_background.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/store_world.hpp"
 #include "support/roads/tile_town.hpp"
@@ -191,6 +193,26 @@ TEST(TileMaker, FollowsADatabaseAsTripsComeAndGo) {
     expect_same(*after, *made_anew());
     EXPECT_GT(maker.made(), 0U);
     EXPECT_FALSE(tiles_of(*before) == tiles_of(*after)); // and the earlier set still answers
+}
+
+TEST(TileMaker, FollowsABackgroundThatComesLater) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 2);
+    TileMaker maker{folder / "tiles"};
+    const auto without = maker.make(store, "without", {});
+    put_background(
+        folder / "a.gpkg",
+        background_box(small_country()),
+        [](const BackgroundSink& sink) {
+            const auto box = extent_of(small_country());
+            sink.place({"Town", PlaceRank::town, {box.south_deg, box.west_deg}});
+        },
+        "town.osm");
+    const auto with = maker.make(store, "with", {});
+    expect_same(*with, *TileMaker{folder / "tiles"}.make(store, "new", {}));
+    EXPECT_FALSE(tiles_of(*without) == tiles_of(*with));
+    EXPECT_EQ(store.audit().back().detail, "town.osm");
 }
 
 } // namespace

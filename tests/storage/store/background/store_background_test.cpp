@@ -8,6 +8,7 @@
 #include "support/files/files.hpp"
 #include "support/roads/store_world.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <set>
@@ -113,6 +114,20 @@ TEST(StoreBackground, IsReplacedAndRemoved) {
     EXPECT_THAT(store.places(box_of_country()), IsEmpty());
     put_background(file, box_of_country(), {});
     EXPECT_TRUE(store.size().is_empty());
+}
+
+TEST(StoreBackground, IsNoticedWhenItChangesAlsoByReadersOfPublications) {
+    for (const auto privacy : {PrivacyProfile::own, PrivacyProfile::crowd}) {
+        const auto file = test_folder() / fmt::format("{}.gpkg", name_of(privacy));
+        auto config = testing::settings();
+        config.privacy = privacy;
+        RoadStore::create(file, small_country(), config, {});
+        const auto reader = StoreReader::open(file);
+        const auto before = reader.moment();
+        EXPECT_TRUE(reader.changed_since(before));
+        put_background(file, box_of_country(), background(), "town.osm");
+        EXPECT_FALSE(reader.changed_since(before)) << name_of(privacy);
+    }
 }
 
 TEST(StoreBackground, StaysAsItWasWhereTheNewOneCannotBeRead) {
