@@ -62,6 +62,18 @@ bool are_all_ours(const LogOutcome& outcome) {
     return outcome.imported > 0 && outcome.imported == outcome.trips();
 }
 
+/// Keeps the log of an upload whose trips are stored: if that fails, they are still its trips.
+void keep(const UploadWork& work,
+          const Upload& upload,
+          const LogKeeping& kept,
+          const Console& console) {
+    try {
+        keep_log(work.store, upload, kept.public_key);
+    } catch (const InputError& error) {
+        console.warn(fmt::format("{}; the log was imported, but is not kept", error.what()));
+    }
+}
+
 /// Returns how often a log may have been begun that is tried now.
 int max_begun(const UploadWork& work) {
     constexpr int at_once = 1;
@@ -122,7 +134,7 @@ bool import_batch(Database& uploads, const UploadWork& work, const Console& cons
     for (std::size_t i = 0; i < taken.size(); ++i) {
         const auto fate = fate_of(outcomes[i]);
         if (kept.days > 0 && are_all_ours(outcomes[i])) {
-            keep_log(work.store, taken[i].upload(), kept.public_key);
+            keep(work, taken[i].upload(), kept, console);
         }
         finish_upload(uploads, spool, taken[i].upload(), fate.state, fate.reason);
     }

@@ -288,6 +288,12 @@ TEST_F(KeptLogs, OfAnArchiveGoWithAnyOfItsTrips) {
     EXPECT_THAT(kept(), IsEmpty());
 }
 
+TEST_F(KeptLogs, ThatCannotBeWrittenAreImportedAllTheSame) {
+    write_file(store_ + ".uploads/kept", "in the way");
+    send({log_of("car-1")});
+    EXPECT_TRUE(fs::is_empty(store_ + ".uploads/spool"));
+}
+
 TEST_F(KeptLogs, AreNoneThatHoldMoreThanTheirTrips) {
     const auto archive =
         archive_of("zip", {{"a.trip.csv", log_of("car-1")}, {"b.trip.csv", "# macadam-trip 1\n"}});
