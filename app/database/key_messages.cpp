@@ -22,6 +22,14 @@ void warn_of_open_key(const StoreReader& store, const Console& console) {
     }
 }
 
+void warn_of_open_logs_key(const std::filesystem::path& key_file, const Console& console) {
+    if (is_open_to_others(key_file)) {
+        console.warn(fmt::format("{}: other users can read this key, and with it the logs that the "
+                                 "server keeps; run 'chmod 600' on it",
+                                 key_file.string()));
+    }
+}
+
 void make_missing_key(ImportTarget& trips, const Console& console) {
     if (trips.make_missing_key()) {
         console.warn(fmt::format("{}: was missing, so a new key was made; cars imported from "

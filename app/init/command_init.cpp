@@ -1,4 +1,5 @@
 #include "app/cli/commands.hpp"
+#include "app/database/key_messages.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/server_store.hpp"
 #include "app/import/trip_inputs.hpp"
@@ -213,6 +214,7 @@ void make_store(const InitOptions& options, const Console& console) {
     if (options.keep_logs_days > 0) {
         settings.kept_logs = {.days = options.keep_logs_days,
                               .public_key = whole.public_key_in(options.logs_key)};
+        warn_of_open_logs_key(options.logs_key, console);
     }
     const auto info = create_store(options.store, roads, settings, console);
     whole.may_go();

@@ -1,5 +1,6 @@
 #include "app/reprocess/kept_trips.hpp"
 
+#include "app/database/key_messages.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/uploads/kept_logs.hpp"
@@ -49,6 +50,7 @@ KeptTrips::KeptTrips(const fs::path& store,
                      AskedTrips& trips,
                      const Console& console)
     : key_{read_log_key(key_file)}, folder_{uploads_folder_of(expect_uploads(store)) / "open"} {
+    warn_of_open_logs_key(key_file, console);
     auto uploads = open_uploads(store, wait_policy_for(store, console));
     erase_old_logs_of(store, uploads, console);
     const auto logs = kept_logs(store);

@@ -189,6 +189,7 @@ TEST_F(KeptLogs, AreReprocessedByWhoHasTheKeyToTheSameDigest) {
     EXPECT_GE(files, 5U); // database, keys, list of uploads, kept log
     const auto before = digest();
     const auto done = reprocess("away/logs.key");
+    EXPECT_THAT(done.err, Not(HasSubstr("can read this key")));
     EXPECT_THAT(done.out, AllOf(HasSubstr(sha256_of(log) + ".csv"), Not(HasSubstr("part-"))));
     EXPECT_THAT(done.err, HasSubstr("generation 2: 1 trip reprocessed, 0 unchanged"));
     EXPECT_EQ(digest(), before);
@@ -197,6 +198,27 @@ TEST_F(KeptLogs, AreReprocessedByWhoHasTheKeyToTheSameDigest) {
         EXPECT_THAT(file.path().string(), Not(HasSubstr("open.part-")));
     }
     EXPECT_THAT(run({"info", store_}).out, HasSubstr("logs        kept encrypted for 30 days"));
+}
+
+TEST_F(KeptLogs, HaveAKeyForOneUserAlone) {
+    const auto open_to = [&] { return fs::status(at("away/logs.key")).permissions(); };
+    EXPECT_EQ(open_to(), fs::perms::owner_read | fs::perms::owner_write);
+    fs::permissions(at("away/logs.key"), fs::perms::group_read, fs::perm_options::add);
+    send({log_of("car-1")});
+    EXPECT_THAT(reprocess("away/logs.key").err,
+                HasSubstr("away/logs.key: other users can read this key, and with it the logs"));
+    EXPECT_THAT(run({"init",
+                     at("b.gpkg"),
+                     "--network",
+                     at("road.osm"),
+                     "--privacy",
+                     "crowd",
+                     "--keep-logs",
+                     "1",
+                     "--logs-key",
+                     at("away/logs.key")})
+                    .err,
+                HasSubstr("other users can read this key"));
 }
 
 TEST_F(KeptLogs, AreOfNoUseWithoutTheirKey) {
