@@ -91,9 +91,9 @@ void run_worker(const Arguments& arguments, const Console& console) {
     if (arguments.flag("--once")) {
         auto uploads = open_uploads(file, wait_policy_for(file, console));
         sweep_spool(uploads, spool_of(file));
+        erase_old_logs_of(file, uploads, console); // first, as an import may fail
         while (work_out_uploads(uploads, work, console)) {
         }
-        erase_old_logs_of(file, uploads, console);
         return;
     }
     const UploadWorkers workers{work, 1, console};

@@ -61,12 +61,12 @@ void UploadWorkers::work(const UploadWork& work,
                 mark.emplace(spool_of(work.store));
                 sweep_spool(*uploads, spool_of(work.store));
             }
+            if (const auto now = std::chrono::steady_clock::now(); uploads && now >= erasing) {
+                erasing = now + erase_every;
+                erase_old_logs_of(work.store, *uploads, quiet); // first, as an import may fail
+            }
             if (uploads && work_out_uploads(*uploads, work, quiet)) {
                 pause = 0s;
-            }
-            if (const auto now = std::chrono::steady_clock::now(); uploads && now >= erasing) {
-                erase_old_logs_of(work.store, *uploads, quiet);
-                erasing = now + erase_every;
             }
             trouble.clear();
         } catch (const std::exception& error) {

@@ -258,6 +258,22 @@ TEST_F(KeptLogs, GoWhenTheirTimeIsOver) {
     EXPECT_THAT(kept(), IsEmpty());
 }
 
+TEST_F(KeptLogs, GoWhenTheirTimeIsOverThoughNothingCanBeImported) {
+    send({log_of("car-1")});
+    EXPECT_THAT(kept(), SizeIs(1));
+    const std::string other(64, 'a');
+    write_file(store_ + ".uploads/spool/" + other + ".csv", "waits");
+    Database{store_ + ".uploads/uploads.db", Database::Access::write}.run(
+        fmt::format("UPDATE upload SET received_ms = received_ms - 30 * 86400000;"
+                    "INSERT INTO upload (sha256, owner, suffix, bytes, received_ms, state)"
+                    " VALUES ('{}', 'anna', '.csv', 5, 0, 'queued')",
+                    other));
+    write_file(folder_ / "away/broken.toml", "[vehicle");
+    EXPECT_THAT(run({"worker", store_, "--once", "--vehicles", at("away")}, 1).err,
+                HasSubstr("broken.toml"));
+    EXPECT_THAT(kept(), IsEmpty());
+}
+
 TEST_F(KeptLogs, GoWithTheirTrips) {
     send({log_of("car-1"), log_of("car-2")});
     EXPECT_THAT(kept(), SizeIs(2));
