@@ -78,6 +78,9 @@ void set_insets(const StoreReader& store, const SegmentFilter& filter, MapScene&
         auto& inset = scene.insets.emplace_back();
         inset.box = box_with_margin(parts[i].box);
         inset.name = place_in(background, inset.box);
+        if (inset.name.empty()) { // something that the overview can repeat
+            inset.name = char('A' + int(i) - 1);
+        }
     }
 }
 
