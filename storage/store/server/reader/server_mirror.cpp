@@ -350,7 +350,7 @@ fs::path refreshed_mirror(ServerConnection& server,
                           const LockWaitPolicy& wait_policy,
                           const Progress& progress) {
     expect_server_schema(server);
-    constexpr int attempts = 5;
+    constexpr int attempts = 20; // others take turns, and programs may forget trips meanwhile
     for (int attempt = 0; attempt < attempts; ++attempt) {
         const auto of = mirrored(server);
         const auto file = mirror_file(of, content);
