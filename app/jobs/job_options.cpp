@@ -14,7 +14,8 @@ std::string server_of(const Arguments& arguments) {
     const auto store = file_or_server(arguments).string();
     if (!is_server_address(store)) {
         throw UsageError{fmt::format("STORE is the file {}, expected postgresql://USER@HOST/"
-                                     "DATABASE; files take trips by 'macadam import'",
+                                     "DATABASE: files have neither queue nor cells, and take "
+                                     "trips by 'macadam import'",
                                      store)};
     }
     return store;
