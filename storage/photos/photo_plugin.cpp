@@ -196,6 +196,7 @@ void reduce(const fs::path& file, int max_px, SmallPhoto& photo) {
     const GdalSetting alone{"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR"}; // no files beside it
     const GdalSetting no_own_data{"GDAL_PAM_ENABLED", "NO"};
     const GdalSetting whole{"GDAL_ERROR_ON_LIBJPEG_WARNING", "TRUE"};
+    const GdalSetting few_scans{"GDAL_JPEG_MAX_ALLOWED_SCAN_NUMBER", "32"}; // usual are 10
     auto pixels = upright(read_reduced(file, max_px), read_exif(head_of(file)).orientation);
     photo.width_px = pixels.width_px;
     photo.height_px = pixels.height_px;

@@ -144,6 +144,22 @@ TEST_F(Photo, CutShortIsRefused) {
     EXPECT_THAT(refusal_of_pixels(folder_ / "short.jpg"), HasSubstr("short.jpg: is damaged: "));
 }
 
+TEST_F(Photo, OfMoreScansThanCamerasWriteIsRefusedAsEachCostsTheTimeOfAllPixels) {
+    const auto file =
+        write_photo(folder_ / "scans.jpg", 64, 48, grey, std::nullopt, "-co PROGRESSIVE=YES");
+    const auto usual = read_file(file);
+    EXPECT_EQ(refusal_of_pixels(file), "none");
+    const auto last_scan = usual.rfind("\xff\xda");
+    ASSERT_NE(last_scan, usual.npos);
+    const auto scan = usual.substr(last_scan, usual.size() - last_scan - 2); // before the end
+    auto bytes = usual.substr(0, usual.size() - 2);
+    for (int i = 0; i < 32; ++i) {
+        bytes += scan;
+    }
+    write_file(file, bytes + "\xff\xd9");
+    EXPECT_THAT(refusal_of_pixels(file), HasSubstr("exceeds maximum scans (32)"));
+}
+
 TEST_F(Photo, IsReducedWithoutWordsAboutPeopleAndDevices) {
     const auto file = write_photo(folder_ / "large.jpg", 400, 300, grey, SampleExif{.at = krems});
     ASSERT_THAT(read_file(file), HasSubstr("Jane Doe"));
