@@ -47,8 +47,9 @@ ConnectionSettings connection_settings(const std::string& address) {
 }
 
 std::string database_name(const std::string& address) {
+    auto settings = connection_settings(address);
     std::string name;
-    for (const char c : connection_settings(address)["dbname"]) {
+    for (const char c : settings["dbname"]) {
         const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
                               (c == '-' && !name.empty());
         name += is_plain ? c : '_';
