@@ -44,6 +44,12 @@ std::vector<std::string> suffixes_in(std::string_view text) {
     return suffixes;
 }
 
+/// Tests whether a help ends a list of suffixes with "...", other than in "postgresql://...".
+bool leaves_suffixes_out(std::string_view help) {
+    const auto dots = help.find("...");
+    return dots != help.npos && !help.substr(0, dots).ends_with("://");
+}
+
 ValueHint hint_of_words(std::string_view choices) {
     return {ValueHint::Kind::words, choices_in(choices), {}};
 }
@@ -53,7 +59,7 @@ ValueHint hint_of_files(std::string_view value, std::string_view help, bool many
         const bool is_folder = contains(value, "DIR");
         return {is_folder ? ValueHint::Kind::folders : ValueHint::Kind::none, {}, {}};
     }
-    const bool has_others = many || contains(help, "...") || contains(help, " any ");
+    const bool has_others = many || leaves_suffixes_out(help) || contains(help, " any ");
     return {ValueHint::Kind::files,
             {},
             has_others ? std::vector<std::string>{}

@@ -47,7 +47,7 @@ inline constexpr Option picture_size_option =
              {"--size",
               "WxH",
               "Pixels (1600x1200), mm (420x594mm) or a paper (A2); detail follows the scale.",
-              "1600x1200, or as much in the shape of the data"});
+              "area of 1600x1200"});
 inline constexpr Option dpi_option = in_group(
     "page",
     {"--dpi", "N", "Pixels per inch of a picture on paper.", "96 with pixels, 300 with paper"});

@@ -373,10 +373,8 @@ constexpr std::array page_options{
     Option{"--worst", "N", "Number of worst sections to list, each with a map.", "20"},
     Option{"--photos",
            "FOLDER",
-           "Show its JPEG photos at the worst sections and along a strip chart, by the GPS "
-           "position in each (EXIF): the 3 "
-           "nearest within 30 m, reduced, without names of people or devices. They may show "
-           "people: look at them before you publish."},
+           "Show its JPEG photos within 30 m, by EXIF position. They may show people: look before "
+           "you publish."},
     in_group("sections",
              {"--route",
               "LAT,LON LAT,LON",

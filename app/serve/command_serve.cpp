@@ -230,8 +230,7 @@ constexpr std::array operands{Operand{"STORE",
 constexpr std::array options{
     Option{"--listen",
            "HOST:PORT",
-           "Address of this machine, and port; 0 is any free one. Or unix:FILE, a socket for its "
-           "owner and group.",
+           "Address of this machine and port, 0 for any free one; or unix:FILE, a socket.",
            "127.0.0.1:8080"},
     Option{"--behind-proxy",
            "URL",

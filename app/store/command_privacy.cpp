@@ -62,8 +62,8 @@ const Command privacy_command{
         "been imported into a database made by 'init --privacy crowd'; since the database "
         "keeps no positions, it\n"
         "deletes more than an import would. Trips whose logs state that they were trimmed stay "
-        "as they are. From then on only publications can be exported. "
-        "This cannot be undone.",
+        "as they are.\n"
+        "From then on only publications can be exported. This cannot be undone.",
     .example = "  macadam privacy roads.gpkg crowd",
     .operands = operands,
     .options = {},
