@@ -181,10 +181,8 @@ TEST_F(Refusals, OfALatencyThatNoReceiverHasNameItsLine) {
 
 TEST_F(Refusals, OfAServersAddressWhereOnlyAFileServesSayHowToGetOne) {
     const std::string server = "postgresql://roads/all";
-    const std::vector<std::vector<std::string>> calls{{"serve", server},
-                                                      {"publish", server},
-                                                      {"render", server, "-o", "a.png"},
-                                                      {"report", server, "-o", "a.html"}};
+    const std::vector<std::vector<std::string>> calls{{"publish", server},
+                                                      {"privacy", server, "crowd"}};
     for (const auto& call : calls) {
         const auto run = run_macadam(call);
         EXPECT_EQ(run.exit_status, 2) << call.front();
