@@ -203,7 +203,8 @@ TEST(Publication, IsTheLayerOfACrowdThatWasUpgraded) {
     crowd.drive_all(6, january_ms);
     Database{crowd.file, Database::Access::write}.run(
         "DROP VIEW roughness;" + own_schema(PrivacyProfile::own).at({"view", "roughness"}).sql +
-        ";ALTER TABLE trip DROP COLUMN trimmed_mm; UPDATE meta SET value = '4' WHERE key = 'version'");
+        ";ALTER TABLE trip DROP COLUMN trimmed_mm; UPDATE meta SET value = '4' WHERE key = "
+        "'version'");
     ASSERT_EQ(crowd.layer_rows(), 30);
     const auto done = upgrade_store(crowd.file, {}, [](auto) { return Progress{}; });
     EXPECT_EQ(done.to_version, 7);
