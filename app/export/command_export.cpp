@@ -282,7 +282,7 @@ void export_sections(const StoreReader& store,
                             spoken(total, options.text.units)));
 }
 
-/// What of a database on a server is read.
+/// Returns what an export reads of a database on a server.
 ServerNeed need_of(const ExportOptions& options) {
     ServerNeed need;
     need.content.background = options.tiles || options.site;

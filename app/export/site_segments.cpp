@@ -135,7 +135,7 @@ SegmentKey last_of(const SegmentRange& range) {
     return {range.way_id, range.forward, range.past - 1};
 }
 
-/// What has changed since an earlier site, and where its unchanged files are.
+/// Tells which files of an earlier site serve again, and finds them.
 class Changes {
 public:
     Changes(const EarlierSite& earlier, const std::vector<std::string>& months)

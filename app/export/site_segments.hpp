@@ -20,7 +20,7 @@ struct SiteShard {
     std::size_t count;
 };
 
-/// What the files of a site's segments were made of.
+/// Shards and months by which a site's files of segments were divided.
 struct SiteSegments {
     std::vector<SiteShard> shards;
     std::vector<std::string> months;

@@ -14,7 +14,7 @@
 namespace macadam {
 namespace {
 
-/// What pages may load: their own scripts, styles, fonts and data alone.
+/// Sources from which pages may load: their own scripts, styles, fonts and data alone.
 constexpr std::string_view content_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; worker-src 'self'; "
     "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; manifest-src 'self'; "

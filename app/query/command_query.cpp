@@ -195,8 +195,8 @@ void print_sections(const StoreReader& store, const QueryOptions& options, const
     console.say(spoken(total, options.units));
 }
 
-/// What of a database on a server is read. Sections, and roads that consist of several ways, need
-/// all roads.
+/// Returns what a query reads of a database on a server. Sections, and roads that consist of
+/// several ways, need all roads.
 ServerNeed need_of(const QueryOptions& options) {
     ServerNeed need;
     need.content.background = false;

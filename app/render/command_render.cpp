@@ -107,8 +107,8 @@ GeoBox frame_around(const GeoBox& box, const PictureSize& size) {
     return grown_over(box, 0.75 * shape * side_m); // half is needed; titles and legends take some
 }
 
-/// What of a database on a server is read: with --bbox what the picture may show around it, else
-/// all, as roads that are not selected are shown, too.
+/// Returns what a map reads of a database on a server: with --bbox what the picture may show
+/// around it, else all, as roads that are not selected are shown, too.
 ServerNeed need_of(const RenderOptions& options) {
     ServerNeed need;
     need.content.background = options.background;

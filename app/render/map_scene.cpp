@@ -44,7 +44,7 @@ std::string subtitle_of(const StoreInfo& info, const MapStyle& style) {
                        counted(info.vehicles.size(), "car"));
 }
 
-/// What a map says of the segments that it selects.
+/// Extent, lengths and period of the segments that a map selects.
 struct SelectedRoads {
     GeoBox box;
     std::vector<double> class_km; ///< of segments with enough passes
@@ -199,8 +199,8 @@ selected_states(const StoreReader& store, const SegmentFilter& filter, const Geo
     return states;
 }
 
-/// Returns the numbers of roads by way. Of several the first counts, as on the largest sign; what
-/// is longer than numbers are or has no figure, such as "FIXME", is none.
+/// Returns the numbers of roads by way. Of several the first counts, as on the largest sign. A text
+/// that is longer than numbers are, or has no figure (mappers leave notes there), is no number.
 std::unordered_map<std::int64_t, std::string> road_numbers(const StoreReader& store) {
     constexpr std::size_t longest = 10;
     std::unordered_map<std::int64_t, std::string> numbers;

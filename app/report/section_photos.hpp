@@ -13,7 +13,7 @@ namespace macadam {
 inline constexpr double max_photo_distance_m = 30;     ///< of a photo from the road that it shows
 inline constexpr std::size_t max_photos_a_section = 3; ///< the nearest
 
-/// What became of the files of a folder.
+/// Numbers of files in a folder of photos, by what became of them.
 struct PhotoCounts {
     std::size_t files = 0;
     std::size_t shown = 0;

@@ -13,7 +13,7 @@ namespace macadam {
 
 inline constexpr std::uint64_t max_tile_bytes = 300'000; ///< compressed, as stored
 
-/// What the vector tiles of all zooms have in common.
+/// Settings that the vector tiles of all zooms share.
 struct TilePlan {
     int min_zoom = 6;
     int max_zoom = 16;

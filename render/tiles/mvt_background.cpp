@@ -33,7 +33,7 @@ constexpr std::array layers{BackgroundLayer{"built_up", background_from_zoom},
                             BackgroundLayer{"railways", 9},
                             BackgroundLayer{"places", background_from_zoom}};
 
-/// How a kind is named in tiles.
+/// Name of a kind of background in vector tiles.
 struct KindName {
     std::string_view layer, word;
     int min_zoom;

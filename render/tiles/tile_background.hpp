@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// What picture tiles show below and beside the roads.
+/// Areas, lines and names that picture tiles show below and beside the roads.
 struct TileBackground {
     std::vector<BackgroundTile> tiles; ///< of tile_background_level()
     std::vector<PlaceName> places;     ///< the most important first

@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// What is used of a photo's EXIF data.
+/// Position, day and orientation of a photo, from its EXIF data.
 struct ExifValues {
     std::optional<GeoPoint> at; ///< `std::nullopt`: none, or not on the globe
     std::string day{};          ///< "2026-03-12"; "" = unknown

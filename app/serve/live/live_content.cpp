@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// When a version was made, and how long it took.
+/// End and duration of the making of a version.
 struct Made {
     Clock::time_point end{};
     Clock::duration took{};

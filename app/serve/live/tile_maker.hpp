@@ -43,7 +43,7 @@ public:
     std::size_t made() const { return made_tiles_; }
 
 private:
-    /// What the next version builds on.
+    /// Tiles of one version, on which the next one builds.
     struct Made {
         Made(const ClassTable& classes, const std::filesystem::path& beside);
 

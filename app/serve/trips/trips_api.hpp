@@ -47,7 +47,7 @@ public:
     /// or with a body that cannot be a trip. For the thread of the network.
     HttpAdmission admit(const HttpRequest& request);
 
-    /// Who may read something.
+    /// Holders of tokens who may read something.
     enum class Readers { with_token, operator_ };
 
     /// Refuses a request to read what the server shows, unless by a token for that. For the same

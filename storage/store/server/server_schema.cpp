@@ -54,7 +54,7 @@ std::string table_sql(const ServerTable& table, const std::string& postgis) {
                        comments);
 }
 
-/// What an importer writes: trips, and the values fused from them.
+/// Tables that an importer writes: trips, and the values fused from them.
 constexpr const char* written_by_importers =
     "macadam.vehicle, macadam.trip, macadam.row_reason, macadam.drive, macadam.event,"
     " macadam.event_search, macadam.segment_state, macadam.chunk_state,"

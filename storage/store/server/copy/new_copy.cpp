@@ -18,7 +18,7 @@ namespace macadam {
 namespace {
 
 constexpr std::array background_tables{"background", "place", "road_ref"};
-/// What fusion of chosen passes reads besides them.
+/// Tables that fusion of chosen passes reads besides the passes.
 constexpr std::array tables_of_fusion{"fusion_setting", "valid_from", "control_section"};
 
 void fill_new(RowsFromServer& rows, Database& file, const std::function<void()>& fill) {

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// What a copy of a database on a server holds.
+/// Extent of a copy of a database on a server.
 enum class ServerContent : std::uint8_t {
     network, ///< roads and settings
     roads,   ///< also fused values and what maps show below: what role macadam_reader may read
@@ -19,7 +19,7 @@ enum class ServerContent : std::uint8_t {
 /// transaction there.
 void fill_copy(RowsFromServer& rows, Database& file, ServerContent content);
 
-/// What a copy of some chunks holds besides roads and fused values.
+/// Contents of a copy of some chunks besides roads and fused values.
 struct PartContent {
     bool passes = false;     ///< with their trips and cars, and what fusion needs
     bool background = false; ///< what maps show below the roads

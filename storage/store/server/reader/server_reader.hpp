@@ -12,7 +12,7 @@
 
 namespace macadam {
 
-/// What a command reads of a database on a server.
+/// Part of a database on a server that a command reads.
 struct ServerNeed {
     std::optional<SegmentFilter> segments{}; ///< only these; `std::nullopt`: anything
     PartContent content{.passes = true, .background = true};
