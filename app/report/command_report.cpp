@@ -2,6 +2,7 @@
 #include "app/cli/joined_options.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
+#include "app/cli/terminal_escape.hpp"
 #include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
@@ -291,7 +292,7 @@ void put_photos(const std::filesystem::path& folder, Report& report, const Conso
     constexpr std::size_t max_lines = 20;
     const auto counts = add_photos(folder, report, console.progress("reading photos"));
     for (const auto& line : counts.skipped | std::views::take(max_lines)) {
-        console.warn("skipped: " + line);
+        console.warn("skipped: " + printable_name(line));
     }
     if (counts.skipped.size() > max_lines) {
         console.warn(fmt::format("skipped: {} more files", counts.skipped.size() - max_lines));

@@ -45,17 +45,23 @@ std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file)
     const auto* const potholes = done.from_version < first_version_with_events
                                      ? "run 'macadam reprocess' to search the trips for potholes\n"
                                      : "";
+    constexpr int first_version_with_background = 6;
+    const auto background =
+        done.from_version < first_version_with_background
+            ? fmt::format("run 'macadam init {} --update MAP' for water, green and names of "
+                          "places on maps\n",
+                          file.string())
+            : std::string{};
     return fmt::format("{}: upgraded from version {} to {}{}\n"
                        "digest before and after: {}\n"
-                       "{}run 'macadam init {} --update MAP' for water, green and names of "
-                       "places on maps\n",
+                       "{}{}",
                        file.string(),
                        done.from_version,
                        done.to_version,
                        cars,
                        done.digest,
                        potholes,
-                       file.string());
+                       background);
 }
 
 /// Upgrades the schema of a database on a server, whose data stay as they are.

@@ -139,12 +139,12 @@ TEST_F(ReportProgram, ShowsPhotosAtTheWorstSectionsAndTellsOfTheOthers) {
         write_photo_at(photos / fmt::format("{:03.0f}-m.jpg", north_m),
                        {lat_deg + north_m * deg_per_m, lon_deg});
     }
-    write_file(photos / "notes.txt", "no photo");
+    write_file(photos / "my\nnotes.txt", "no photo");
     const auto shown_in = [&](const std::string& name) {
         const auto run =
             run_macadam({"report", store_, "-o", out(name), "--photos", photos.string()});
         EXPECT_EQ(run.exit_status, 0) << run.err;
-        EXPECT_THAT(run.err, HasSubstr("notes.txt: is not a JPEG"));
+        EXPECT_THAT(run.err, HasSubstr("my\\x0anotes.txt: is not a JPEG"));
         EXPECT_THAT(run.err,
                     HasSubstr("photos: 3 of 6 shown, 1 farther than 30 m from all roads listed, 1 "
                               "beyond the nearest 3 of a section or strip, 1 skipped"));

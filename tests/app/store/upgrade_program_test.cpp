@@ -107,17 +107,25 @@ TEST_F(UpgradeProgram, HasNothingToDoASecondTime) {
     EXPECT_EQ(read_file(store_), content);
 }
 
-TEST_F(UpgradeProgram, TellsToSearchForPotholesOnlyWhereTheVersionHadNone) {
+TEST_F(UpgradeProgram, TellsOfPotholesAndBackgroundsOnlyWhereTheVersionHadNone) {
     const auto background = "run 'macadam init " + store_ + " --update MAP' for water";
     EXPECT_THAT(run("upgrade").out,
                 AllOf(HasSubstr("run 'macadam reprocess'"), HasSubstr(background)));
-    Database{store_, Database::Access::write}.run(
-        "ALTER TABLE trip DROP COLUMN trimmed_mm;"
-        " UPDATE meta SET value = '5' WHERE key = 'version'");
+    const auto make_version = [&](const std::string& version) {
+        Database{store_, Database::Access::write}.run(
+            "ALTER TABLE trip DROP COLUMN trimmed_mm; UPDATE meta SET value = '" + version +
+            "' WHERE key = 'version'");
+    };
+    make_version("5");
     EXPECT_THAT(run("upgrade").out,
                 AllOf(HasSubstr("upgraded from version 5 to 7"),
                       Not(HasSubstr("reprocess")),
                       HasSubstr(background)));
+    make_version("6");
+    EXPECT_THAT(run("upgrade").out,
+                AllOf(HasSubstr("upgraded from version 6 to 7"),
+                      Not(HasSubstr("reprocess")),
+                      Not(HasSubstr("init"))));
 }
 
 TEST_F(UpgradeProgram, RefusesAStoreOfANewerProgramOrWithViewsOfOthers) {
