@@ -93,7 +93,7 @@ void encode(const HttpRequest& request, HttpResponse& response) {
         response.body = gunzipped(response.body);
     } else if (!response.is_gzipped && takes && request.header("range").empty() &&
                response.body.size() >= least_compressed) {
-        response.body = gzipped(response.body);
+        response.body = gzipped(response.body, GzipUse::sent_once);
         response.is_gzipped = true;
     } else if (!response.is_gzipped) {
         return;

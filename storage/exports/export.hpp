@@ -45,8 +45,8 @@ std::string geojson_feature(const std::optional<JsonValue>& id,
                             const std::vector<GeoPoint>& line,
                             const JsonObject& properties);
 
-/// Formats a line as the `geometry` of a Feature, in the same way.
-std::string geojson_geometry(const std::vector<GeoPoint>& line);
+/// Appends a line as the `geometry` of a Feature, in the same way.
+void append_geojson_geometry(std::string& text, std::span<const GeoPoint> line);
 
 /// Writes segments to a file in the order of visit(). The suffix selects the format: .geojson,
 /// .geojsonl, .csv, .gpkg (layer `roughness` with its style, without passes, trips or vehicles),

@@ -2,6 +2,7 @@
 
 #include "mapping/geometry/antimeridian.hpp"
 #include "storage/store/rows/segment_row.hpp"
+#include "storage/text/json_append.hpp"
 #include "storage/text/unit_system.hpp"
 #include "storage/text/utc.hpp"
 
@@ -87,14 +88,24 @@ GeoPoint middle_of(const Row& row) {
     return {middle.lat_deg, std::remainder(middle.lon_deg, 360.0)};
 }
 
-std::string positions_of(const std::vector<GeoPoint>& line) {
-    std::vector<std::string> points;
-    points.reserve(line.size());
+void append_positions(std::string& text, std::span<const GeoPoint> line) {
+    text += '[';
+    const char* separator = "[";
     for (const auto& point : line) {
-        points.push_back(fmt::format(
-            "[{:.{}f},{:.{}f}]", point.lon_deg, place_decimals, point.lat_deg, place_decimals));
+        text += separator;
+        append_fixed(text, point.lon_deg, place_decimals);
+        text += ',';
+        append_fixed(text, point.lat_deg, place_decimals);
+        text += ']';
+        separator = ",[";
     }
-    return json_array(points);
+    text += ']';
+}
+
+std::string geometry_of(std::span<const GeoPoint> line) {
+    std::string text;
+    append_geojson_geometry(text, line);
+    return text;
 }
 
 using State = SegmentState;
@@ -165,18 +176,21 @@ std::vector<Text> attribute_texts(const ClassedSegment& segment,
     return texts;
 }
 
-std::string geojson_geometry(const std::vector<GeoPoint>& line) {
-    JsonObject geometry;
+void append_geojson_geometry(std::string& text, std::span<const GeoPoint> line) {
     if (!crosses_antimeridian(line)) {
-        geometry.add("type", "LineString").add("coordinates", JsonRaw{positions_of(line)});
-        return geometry.text();
+        text += R"({"type":"LineString","coordinates":)";
+        append_positions(text, line);
+        text += '}';
+        return;
     }
-    std::vector<std::string> parts;
+    text += R"({"type":"MultiLineString","coordinates":)";
+    const char* separator = "[";
     for (const auto& part : cut_at_antimeridian(line)) {
-        parts.push_back(positions_of(part));
+        text += separator;
+        append_positions(text, part);
+        separator = ",";
     }
-    geometry.add("type", "MultiLineString").add("coordinates", JsonRaw{json_array(parts)});
-    return geometry.text();
+    text += "]}";
 }
 
 std::string geojson_feature(const std::optional<JsonValue>& id,
@@ -188,8 +202,7 @@ std::string geojson_feature(const std::optional<JsonValue>& id,
         feature.add("id", *id);
     }
     feature
-        .add("geometry",
-             line.empty() ? JsonValue{nullptr} : JsonValue{JsonRaw{geojson_geometry(line)}})
+        .add("geometry", line.empty() ? JsonValue{nullptr} : JsonValue{JsonRaw{geometry_of(line)}})
         .add("properties", JsonRaw{properties.text()});
     return feature.text();
 }

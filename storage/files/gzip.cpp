@@ -11,7 +11,9 @@
 namespace macadam {
 namespace {
 
-constexpr int level = 5; // from 1 to 12; 6 takes a third longer and saves almost nothing
+// From 1 to 12. Of 550 kB of GeoJSON, 1 makes 34 kB in 0.7 ms, 5 makes 30 kB in 1.7 ms, 6 takes
+// half as long again and saves almost nothing.
+constexpr int level_kept = 5, level_sent_once = 1;
 
 struct Free {
     void operator()(libdeflate_compressor* compressor) const {
@@ -20,7 +22,7 @@ struct Free {
 };
 using Compressor = std::unique_ptr<libdeflate_compressor, Free>;
 
-Compressor new_compressor() {
+Compressor new_compressor(int level) {
     Compressor compressor{libdeflate_alloc_compressor(level)};
     if (!compressor) {
         throw std::bad_alloc{};
@@ -54,9 +56,14 @@ std::size_t size_of_content(std::string_view bytes) {
 
 } // namespace
 
-std::string gzipped(std::string_view bytes) {
-    thread_local const auto compressor = new_compressor(); // slow to create, small to keep
-    thread_local std::vector<char> room;                   // only grows
+std::string gzipped(std::string_view bytes, GzipUse use) {
+    thread_local Compressor kept, sent_once; // slow to create, small to keep
+    thread_local std::vector<char> room;     // only grows
+    const bool is_kept = use == GzipUse::kept;
+    auto& compressor = is_kept ? kept : sent_once;
+    if (!compressor) {
+        compressor = new_compressor(is_kept ? level_kept : level_sent_once);
+    }
     const auto most = libdeflate_gzip_compress_bound(compressor.get(), bytes.size());
     room.resize(std::max(room.size(), most));
     const auto size = libdeflate_gzip_compress(

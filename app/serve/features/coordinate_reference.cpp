@@ -1,13 +1,11 @@
 #include "app/serve/features/coordinate_reference.hpp"
 
 #include "storage/exports/export.hpp"
-
-#include <fmt/format.h>
+#include "storage/text/json_append.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace macadam {
 namespace {
@@ -15,17 +13,28 @@ namespace {
 constexpr double mercator_radius_m = 6378137; // EPSG:3857: the sphere of WGS 84's semi-major axis
 constexpr double deg = std::numbers::pi / 180;
 
-std::string position_text(const GeoPoint& point, CoordinateReference crs) {
+void append_numbers(std::string& text, double first, double second, int decimals) {
+    text += '[';
+    append_fixed(text, first, decimals);
+    text += ',';
+    append_fixed(text, second, decimals);
+    text += ']';
+}
+
+void append_position(std::string& text, const GeoPoint& point, CoordinateReference crs) {
+    constexpr int decimals = 7, decimals_m = 3; // 1 cm, 1 mm
     if (crs == CoordinateReference::epsg_3857) {
         const double most = 89.9 * deg; // the pole has no place
         const double lat = std::clamp(point.lat_deg * deg, -most, most);
-        return fmt::format("[{:.3f},{:.3f}]",
-                           mercator_radius_m * point.lon_deg * deg,
-                           mercator_radius_m * std::asinh(std::tan(lat)));
+        append_numbers(text,
+                       mercator_radius_m * point.lon_deg * deg,
+                       mercator_radius_m * std::asinh(std::tan(lat)),
+                       decimals_m);
+    } else if (crs == CoordinateReference::epsg_4326) {
+        append_numbers(text, point.lat_deg, point.lon_deg, decimals);
+    } else {
+        append_numbers(text, point.lon_deg, point.lat_deg, decimals);
     }
-    return crs == CoordinateReference::epsg_4326
-               ? fmt::format("[{:.7f},{:.7f}]", point.lat_deg, point.lon_deg)
-               : fmt::format("[{:.7f},{:.7f}]", point.lon_deg, point.lat_deg);
 }
 
 } // namespace
@@ -51,19 +60,28 @@ GeoPoint geo_point_of(CoordinateReference crs, double first, double second) {
                                                  : GeoPoint{.lat_deg = second, .lon_deg = first};
 }
 
-std::string geometry_text(std::span<const GeoPoint> line, bool is_point, CoordinateReference crs) {
+void append_geometry(std::string& text,
+                     std::span<const GeoPoint> line,
+                     bool is_point,
+                     CoordinateReference crs) {
     if (is_point) {
-        return fmt::format(R"({{"type":"Point","coordinates":{}}})",
-                           position_text(line.front(), crs));
+        text += R"({"type":"Point","coordinates":)";
+        append_position(text, line.front(), crs);
+        text += '}';
+        return;
     }
     if (crs == CoordinateReference::crs84) {
-        return geojson_geometry({line.begin(), line.end()});
+        append_geojson_geometry(text, line);
+        return;
     }
-    std::string positions;
+    text += R"({"type":"LineString","coordinates":[)";
+    const char* separator = "";
     for (const auto& point : line) {
-        positions += (positions.empty() ? "" : ",") + position_text(point, crs);
+        text += separator;
+        append_position(text, point, crs);
+        separator = ",";
     }
-    return fmt::format(R"({{"type":"LineString","coordinates":[{}]}})", positions);
+    text += "]}";
 }
 
 } // namespace macadam

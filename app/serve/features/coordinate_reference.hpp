@@ -29,8 +29,11 @@ std::optional<CoordinateReference> parse_coordinate_reference(std::string_view u
 /// Position from a pair of coordinates.
 GeoPoint geo_point_of(CoordinateReference crs, double first, double second);
 
-/// Formats a point, or a line, as the geometry of GeoJSON.
+/// Appends a point, or a line, as the geometry of GeoJSON.
 /// \param is_point  the line has one position, of a point
-std::string geometry_text(std::span<const GeoPoint> line, bool is_point, CoordinateReference crs);
+void append_geometry(std::string& text,
+                     std::span<const GeoPoint> line,
+                     bool is_point,
+                     CoordinateReference crs);
 
 } // namespace macadam

@@ -1,29 +1,37 @@
 #include "app/serve/features/feature.hpp"
 
+#include "storage/text/json_append.hpp"
 #include "storage/text/text.hpp"
 
 namespace macadam {
 
-std::string feature_text(const Feature& feature,
-                         std::span<const FeatureColumn> columns,
-                         CoordinateReference crs,
-                         std::string_view links) {
-    JsonObject properties;
+void append_feature(std::string& text,
+                    const Feature& feature,
+                    std::span<const FeatureColumn> columns,
+                    CoordinateReference crs,
+                    std::string_view links) {
+    text += R"({"type":"Feature","id":)";
+    append_json_text(text, feature.id);
+    text += R"(,"geometry":)";
+    if (feature.line.empty()) {
+        text += "null";
+    } else {
+        append_geometry(text, feature.line, feature.is_point, crs);
+    }
+    text += R"(,"properties":)";
+    const char* separator = "{";
     for (const auto& column : columns) {
-        properties.add(column.name, json_value(column.type, column.value(feature.row)));
+        text += separator;
+        text += column.member;
+        append_json(text, column.type, column.value(feature.row));
+        separator = ",";
     }
-    JsonObject object;
-    object.add("type", "Feature")
-        .add("id", feature.id)
-        .add("geometry",
-             feature.line.empty()
-                 ? JsonValue{nullptr}
-                 : JsonValue{JsonRaw{geometry_text(feature.line, feature.is_point, crs)}})
-        .add("properties", JsonRaw{properties.text()});
+    text += columns.empty() ? "{}" : "}";
     if (!links.empty()) {
-        object.add("links", JsonRaw{std::string{links}});
+        text += R"(,"links":)";
+        text += links;
     }
-    return object.text();
+    text += '}';
 }
 
 bool equals_text(const ColumnType& type, const Cell& cell, std::string_view text) {

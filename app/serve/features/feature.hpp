@@ -17,6 +17,7 @@ struct FeatureColumn {
     std::string name;
     ColumnType type;
     std::function<Cell(const void*)> value;
+    std::string member; ///< beginning of its member of a JSON object: "name":
 };
 
 /// Columns that JSON has, of rows of one kind.
@@ -25,10 +26,12 @@ std::vector<FeatureColumn> feature_columns(const Columns<Row>& columns) {
     std::vector<FeatureColumn> erased;
     for (const auto& column : columns) {
         if (is_in(column, ColumnType::Formats::json)) {
-            erased.push_back(
-                {std::string{column.name}, column.type, [value = column.value](const void* row) {
-                     return value(*static_cast<const Row*>(row));
-                 }});
+            erased.push_back({std::string{column.name},
+                              column.type,
+                              [value = column.value](const void* row) {
+                                  return value(*static_cast<const Row*>(row));
+                              },
+                              json_text(column.name) + ":"});
         }
     }
     return erased;
@@ -45,11 +48,12 @@ struct Feature {
 /// Condition on features.
 using FeatureTest = std::function<bool(const Feature&)>;
 
-/// Formats a feature as GeoJSON on one line, as exports do.
-std::string feature_text(const Feature& feature,
-                         std::span<const FeatureColumn> columns,
-                         CoordinateReference crs,
-                         std::string_view links = {});
+/// Appends a feature as GeoJSON on one line, as exports do.
+void append_feature(std::string& text,
+                    const Feature& feature,
+                    std::span<const FeatureColumn> columns,
+                    CoordinateReference crs,
+                    std::string_view links = {});
 
 /// Tests whether a cell holds the value that a text names: equal text, or an equal number.
 bool equals_text(const ColumnType& type, const Cell& cell, std::string_view text);

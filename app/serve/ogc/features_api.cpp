@@ -39,10 +39,25 @@ std::string day_json(const std::optional<std::int64_t>& ms) {
 
 /// Page of features with its links.
 struct Page {
-    std::vector<std::string> features;
+    std::string features; ///< with commas between them
+    std::size_t returned = 0;
     std::size_t matched = 0;
     std::string next; ///< "after=..." or "offset=..."; "" = the last page
 };
+
+/// Appends a feature to a page, which is made large enough for all at once.
+void add_feature(Page& page,
+                 const Feature& feature,
+                 std::span<const FeatureColumn> columns,
+                 const ItemsQuery& query) {
+    constexpr std::size_t usual_bytes = 640; // of a feature; a page also has its head
+    if (page.returned++ == 0) {
+        page.features.reserve(usual_bytes * (query.limit + 8));
+    } else {
+        page.features += ',';
+    }
+    append_feature(page.features, feature, columns, query.crs);
+}
 
 /// Keeps caches of several clients from handing on what depends on a token.
 HttpResponse for_its_reader(const ApiContext& context, HttpResponse response) {
@@ -53,10 +68,8 @@ HttpResponse for_its_reader(const ApiContext& context, HttpResponse response) {
     return response;
 }
 
-HttpResponse page_response(const ApiContext& context,
-                           std::string_view id,
-                           const ItemsQuery& query,
-                           const Page& page) {
+HttpResponse
+page_response(const ApiContext& context, std::string_view id, const ItemsQuery& query, Page page) {
     const auto here = fmt::format("{}/collections/{}", context.base, id);
     const auto address = [&](const std::string& position) {
         return fmt::format("{}/items?limit={}{}{}", here, query.limit, position, query.rest);
@@ -75,10 +88,13 @@ HttpResponse page_response(const ApiContext& context,
     JsonObject collection;
     collection.add("type", "FeatureCollection")
         .add("numberMatched", static_cast<std::int64_t>(page.matched))
-        .add("numberReturned", static_cast<std::int64_t>(page.features.size()))
-        .add("links", JsonRaw{links_text(links)})
-        .add("features", JsonRaw{json_array(page.features)});
-    auto response = api_page(context, std::string{id}, collection.text(), geojson_type);
+        .add("numberReturned", static_cast<std::int64_t>(page.returned))
+        .add("links", JsonRaw{links_text(links)});
+    auto head = collection.text();
+    head.back() = ','; // instead of its brace
+    auto text = std::move(page.features);
+    text.insert(0, head + R"("features":[)").append("]}");
+    auto response = api_page(context, std::string{id}, std::move(text), geojson_type);
     response.headers.emplace_back("Content-Crs", fmt::format("<{}>", uri_of(query.crs)));
     return for_its_reader(context, std::move(response));
 }
@@ -91,8 +107,9 @@ HttpResponse feature_response(const ApiContext& context,
     const auto links = links_text(
         {{fmt::format("{}/items/{}", here, percent_encoded(feature.id)), "self", geojson_type},
          {here, "collection", "application/json"}});
-    auto response = api_page(
-        context, feature.id, feature_text(feature, collection.columns(), crs, links), geojson_type);
+    std::string text;
+    append_feature(text, feature, collection.columns(), crs, links);
+    auto response = api_page(context, feature.id, std::move(text), geojson_type);
     response.headers.emplace_back("Content-Crs", fmt::format("<{}>", uri_of(crs)));
     return for_its_reader(context, std::move(response));
 }
@@ -263,19 +280,20 @@ HttpResponse FeaturesApi::segment_items(const ApiContext& context, const Collect
     auto filter = filter_of(query);
     filter.box.reset(); // the keys are those of its segments
     filter.ranges = ranges_of(shown);
-    Page page{.features = {}, .matched = keys->size(), .next = {}};
+    Page page;
+    page.matched = keys->size();
     const auto& classes = *class_table(context.store.settings().class_table);
     context.store.visit(filter, [&](const SegmentRecord& record) {
         const ClassedSegment row{record, classes};
-        page.features.push_back(feature_text(
-            {.id = name_of(record.segment.key), .line = record.segment.line, .row = &row},
-            columns,
-            query.crs));
+        add_feature(page,
+                    {.id = name_of(record.segment.key), .line = record.segment.line, .row = &row},
+                    columns,
+                    query);
     });
     if (first + count < keys->size()) {
         page.next = "after=" + percent_encoded(name_of(shown.back()));
     }
-    return page_response(context, collection.id, query, page);
+    return page_response(context, collection.id, query, std::move(page));
 }
 
 FeatureList FeaturesApi::sections(const StoreReader& store) const {
@@ -315,14 +333,14 @@ HttpResponse FeaturesApi::list_items(const ApiContext& context, const Collection
             (!area || (!feature.line.empty() && area->intersects(feature.line))) &&
             (!query.period || is_seen_in(feature, columns, *query.period)) &&
             std::ranges::all_of(query.tests, [&](const auto& test) { return test(feature); });
-        if (fits && page.matched++ >= query.offset && page.features.size() < query.limit) {
-            page.features.push_back(feature_text(feature, columns, query.crs));
+        if (fits && page.matched++ >= query.offset && page.returned < query.limit) {
+            add_feature(page, feature, columns, query);
         }
     }
-    if (query.offset + page.features.size() < page.matched && !page.features.empty()) {
-        page.next = fmt::format("offset={}", query.offset + page.features.size());
+    if (query.offset + page.returned < page.matched && page.returned > 0) {
+        page.next = fmt::format("offset={}", query.offset + page.returned);
     }
-    return page_response(context, collection.id, query, page);
+    return page_response(context, collection.id, query, std::move(page));
 }
 
 HttpResponse

@@ -65,9 +65,8 @@ std::string select_of(const SegmentFilter& filter, const char* columns, bool row
         sql += " AND segment.way_id = ? AND segment.direction = ?"
                " AND segment.seq >= ? AND segment.seq < ?";
     }
-    // The rows of one way are always in the order of its keys.
-    return visited ? sql
-                   : sql + " ORDER BY " + (road != AccessPath::all ? "segment.fid" : order_of_keys);
+    // Within a way, the index has this order: nothing is sorted.
+    return visited ? sql : sql + " ORDER BY " + order_of_keys;
 }
 
 /// Ways whose name contains the text in any case, in the order of their ids.
