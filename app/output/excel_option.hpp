@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/cli/arguments.hpp"
-#include "storage/text/excel_csv.hpp"
+#include "storage/tables/excel_csv.hpp"
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 #include "app/cli/arguments.hpp"
 #include "app/query/section_options.hpp"
 #include "storage/store/records/segment_filter.hpp"
-#include "storage/text/excel_csv.hpp"
+#include "storage/tables/excel_csv.hpp"
 #include "storage/text/unit_system.hpp"
 
 #include <cstddef>

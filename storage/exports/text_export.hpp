@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/text/excel_csv.hpp"
+#include "storage/tables/excel_csv.hpp"
 #include "storage/text/unit_system.hpp"
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "storage/text/excel_csv.hpp"
+#include "storage/tables/excel_csv.hpp"
 
 #include <gmock/gmock.h>
 
