@@ -19,9 +19,8 @@ CREATE TEMP TABLE touched ON COMMIT DROP AS
     WHERE (segment.cell, segment.chunk) IN
         (SELECT cell, chunk FROM macadam.drive WHERE trip IN (SELECT id FROM leaving));
 
-INSERT INTO macadam.chunk_dirty AS dirty (chunk, since_ms)
-    SELECT DISTINCT chunk, (1000 * extract(epoch FROM now()))::bigint FROM touched
-    ON CONFLICT (chunk) DO UPDATE SET marks = dirty.marks + 1;
+INSERT INTO macadam.chunk_dirty (chunk, since_ms)
+    SELECT DISTINCT chunk, (1000 * extract(epoch FROM now()))::bigint FROM touched ON CONFLICT DO NOTHING;
 DELETE FROM macadam.state_change WHERE segment IN (SELECT fid FROM touched);
 DELETE FROM macadam.segment_state WHERE (cell, fid) IN (SELECT cell, fid FROM touched);
 DELETE FROM macadam.chunk_state WHERE chunk IN (SELECT chunk FROM touched);

@@ -32,7 +32,7 @@ void add_counts(WorkStatus& status, ServerConnection& server) {
     status.finished_in_minute = integer_in(rates.at(0)[0]);
     status.finished_in_hour = integer_in(rates.at(0)[1]);
     status.passes_in_hour = integer_in(rates.at(0)[2]);
-    status.chunks_to_fuse = server.number("SELECT count(*) FROM macadam.chunk_dirty");
+    status.chunks_to_fuse = server.number("SELECT count(DISTINCT chunk) FROM macadam.chunk_dirty");
 }
 
 void add_workers(WorkStatus& status, ServerConnection& server) {

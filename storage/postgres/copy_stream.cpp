@@ -52,8 +52,9 @@ std::string_view taken(std::string_view& bytes, std::size_t size) {
 
 CopyWriter::CopyWriter(ServerConnection& server, const std::string& into, int columns)
     : server_{&server}, columns_{columns} {
-    const Result result{PQexec(
-        server.handle(), fmt::format("COPY {} FROM STDIN WITH (FORMAT binary)", into).c_str())};
+    const auto sql =
+        server.with_begin(fmt::format("COPY {} FROM STDIN WITH (FORMAT binary)", into));
+    const Result result{PQexec(server.handle(), sql.c_str())};
     if (PQresultStatus(result.get()) != PGRES_COPY_IN) {
         server.fail("the server refused", result.get());
     }
@@ -218,8 +219,9 @@ CopyReader::CopyReader(ServerConnection& server,
                        std::string table,
                        int columns)
     : server_{&server}, table_{std::move(table)}, row_{server, table_}, columns_{columns} {
-    const Result result{PQexec(
-        server.handle(), fmt::format("COPY {} TO STDOUT WITH (FORMAT binary)", source).c_str())};
+    const auto sql =
+        server.with_begin(fmt::format("COPY {} TO STDOUT WITH (FORMAT binary)", source));
+    const Result result{PQexec(server.handle(), sql.c_str())};
     if (PQresultStatus(result.get()) != PGRES_COPY_OUT) {
         server.fail("the server refused", result.get());
     }

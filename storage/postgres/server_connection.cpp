@@ -61,6 +61,49 @@ bool is_trouble(std::string_view state) {
            state.starts_with("57P") || state.starts_with("58");
 }
 
+constexpr std::string_view refused = "the server refused";
+
+bool is_done(const PGresult* result) {
+    const auto status = PQresultStatus(result);
+    return status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
+}
+
+std::vector<ServerRow> rows_in(const PGresult* result) {
+    std::vector<ServerRow> rows(static_cast<std::size_t>(PQntuples(result)));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (int column = 0; column < PQnfields(result); ++column) {
+            const int row = static_cast<int>(i);
+            rows[i].push_back(PQgetisnull(result, row, column) != 0
+                                  ? std::nullopt
+                                  : std::optional{std::string(PQgetvalue(result, row, column),
+                                                              static_cast<std::size_t>(PQgetlength(
+                                                                  result, row, column)))});
+        }
+    }
+    return rows;
+}
+
+/// Values as libpq takes them.
+class Parameters {
+public:
+    explicit Parameters(const std::vector<std::optional<std::string>>& values)
+        : plain_(values.size()) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            plain_[i] = server_text(values[i].value_or(""));
+            texts_.push_back(values[i] ? plain_[i].c_str() : nullptr);
+        }
+    }
+    Parameters(const Parameters&) = delete;
+    Parameters& operator=(const Parameters&) = delete;
+
+    int count() const { return static_cast<int>(texts_.size()); }
+    const char* const* values() const { return texts_.data(); }
+
+private:
+    std::vector<std::string> plain_;
+    std::vector<const char*> texts_;
+};
+
 void keep_warning(void* to, const PGresult* result) {
     auto& warnings = *static_cast<std::vector<std::string>*>(to);
     const char* const severity = PQresultErrorField(result, PG_DIAG_SEVERITY_NONLOCALIZED);
@@ -138,45 +181,155 @@ void ServerConnection::fail(std::string_view doing, const pg_result* result) con
     throw InputError{message};
 }
 
+/// Requests that go to the server together, in pipeline mode.
+class ServerConnection::Pipeline {
+public:
+    explicit Pipeline(ServerConnection& server)
+        : server_{&server}, is_sent_{PQenterPipelineMode(server.handle()) == 1} {
+        if (!server.begin_.empty()) {
+            is_sent_ = is_sent_ && PQsendQueryParams(server.handle(),
+                                                     std::exchange(server.begin_, {}).c_str(),
+                                                     0,
+                                                     nullptr,
+                                                     nullptr,
+                                                     nullptr,
+                                                     nullptr,
+                                                     0) == 1;
+            requests_.push_back({Request::begin, {}});
+        }
+    }
+
+    void send(const ServerStatement& statement) {
+        const Parameters parameters{statement.values};
+        is_sent_ = is_sent_ && PQsendQueryParams(server_->handle(),
+                                                 statement.sql.c_str(),
+                                                 parameters.count(),
+                                                 nullptr,
+                                                 parameters.values(),
+                                                 nullptr,
+                                                 nullptr,
+                                                 0) == 1;
+        requests_.push_back({Request::statement, {}});
+    }
+
+    /// Parses and plans it for the first time only.
+    void send_prepared(const ServerStatement& statement) {
+        auto& names = server_->prepared_;
+        if (!names.contains(statement.sql)) {
+            const auto name = fmt::format("macadam_{}", names.size());
+            is_sent_ = is_sent_ &&
+                       PQsendPrepare(
+                           server_->handle(), name.c_str(), statement.sql.c_str(), 0, nullptr) == 1;
+            requests_.push_back({Request::preparation, statement.sql});
+            names.emplace(statement.sql, name);
+        }
+        const Parameters parameters{statement.values};
+        is_sent_ = is_sent_ && PQsendQueryPrepared(server_->handle(),
+                                                   names.at(statement.sql).c_str(),
+                                                   parameters.count(),
+                                                   parameters.values(),
+                                                   nullptr,
+                                                   nullptr,
+                                                   0) == 1;
+        requests_.push_back({Request::statement, {}});
+    }
+
+    /// \param when_broken  what to say if no answer comes, or the last statement fails
+    /// \returns those to the statements.
+    std::vector<Answer> answers(std::string_view when_broken) {
+        auto* const connection = server_->handle();
+        if (!is_sent_ || PQpipelineSync(connection) != 1) {
+            server_->fail(when_broken, nullptr);
+        }
+        std::vector<Answer> answers;
+        Result failed;
+        bool is_last = false; // that failed
+        for (const auto& request : requests_) {
+            Result result{PQgetResult(connection)};
+            if (!result || PQstatus(connection) != CONNECTION_OK) {
+                server_->fail(when_broken, result.get());
+            }
+            const bool done = is_done(result.get());
+            if (done && request.kind == Request::statement) {
+                Answer answer;
+                answer.tag = PQcmdStatus(result.get());
+                answer.rows = rows_in(result.get());
+                answers.push_back(std::move(answer));
+            } else if (!done && request.kind == Request::preparation) {
+                server_->prepared_.erase(request.sql);
+            }
+            if (!done && !failed) { // those after it were not run
+                failed = std::move(result);
+                is_last = &request == &requests_.back();
+            }
+            result.reset(PQgetResult(connection)); // null: the end of its answer
+        }
+        const Result end{PQgetResult(connection)};
+        if (PQresultStatus(end.get()) != PGRES_PIPELINE_SYNC ||
+            PQexitPipelineMode(connection) != 1) {
+            server_->fail(when_broken, failed ? failed.get() : end.get());
+        }
+        if (failed) {
+            server_->fail(is_last ? when_broken : refused, failed.get());
+        }
+        return answers;
+    }
+
+private:
+    struct Request {
+        enum Kind : std::uint8_t { begin, preparation, statement };
+        Kind kind;
+        std::string sql; ///< that is prepared
+    };
+
+    ServerConnection* server_;
+    std::vector<Request> requests_;
+    bool is_sent_;
+};
+
+std::string ServerConnection::with_begin(const std::string& sql) {
+    return std::exchange(begin_, {}) + sql;
+}
+
 void ServerConnection::run(const std::string& sql) {
-    const Result result{PQexec(connection_.get(), sql.c_str())};
-    const auto status = PQresultStatus(result.get());
-    if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) {
-        fail("the server refused", result.get());
+    const Result result{PQexec(connection_.get(), with_begin(sql).c_str())};
+    if (!is_done(result.get())) {
+        fail(refused, result.get());
     }
 }
 
 std::vector<ServerRow>
 ServerConnection::rows(const std::string& sql,
                        const std::vector<std::optional<std::string>>& values) {
-    std::vector<std::string> plain(values.size());
-    std::vector<const char*> texts;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        plain[i] = server_text(values[i].value_or(""));
-        texts.push_back(values[i] ? plain[i].c_str() : nullptr);
+    if (!begin_.empty()) {
+        Pipeline pipeline{*this};
+        pipeline.send(ServerStatement{sql, values});
+        return std::move(pipeline.answers(refused).front().rows);
     }
+    const Parameters parameters{values};
     const Result result{PQexecParams(connection_.get(),
                                      sql.c_str(),
-                                     static_cast<int>(texts.size()),
+                                     parameters.count(),
                                      nullptr,
-                                     texts.data(),
+                                     parameters.values(),
                                      nullptr,
                                      nullptr,
                                      0)};
-    const auto status = PQresultStatus(result.get());
-    if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) {
-        fail("the server refused", result.get());
+    if (!is_done(result.get())) {
+        fail(refused, result.get());
     }
-    std::vector<ServerRow> rows(static_cast<std::size_t>(PQntuples(result.get())));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (int column = 0; column < PQnfields(result.get()); ++column) {
-            const int row = static_cast<int>(i);
-            rows[i].push_back(PQgetisnull(result.get(), row, column) != 0
-                                  ? std::nullopt
-                                  : std::optional{std::string(PQgetvalue(result.get(), row, column),
-                                                              static_cast<std::size_t>(PQgetlength(
-                                                                  result.get(), row, column)))});
-        }
+    return rows_in(result.get());
+}
+
+std::vector<std::vector<ServerRow>>
+ServerConnection::rows_of_all(std::span<const ServerStatement> statements) {
+    Pipeline pipeline{*this};
+    for (const auto& statement : statements) {
+        pipeline.send_prepared(statement);
+    }
+    std::vector<std::vector<ServerRow>> rows;
+    for (auto& answer : pipeline.answers(refused)) {
+        rows.push_back(std::move(answer.rows));
     }
     return rows;
 }
@@ -208,18 +361,24 @@ std::int64_t ServerConnection::number(const std::string& sql) {
 }
 
 void ServerConnection::begin(bool reads_only) {
-    run(reads_only ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" : "BEGIN");
+    begin_ = reads_only ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY;" : "BEGIN;";
 }
 
-void ServerConnection::commit() {
-    warnings_->clear();
-    const Result result{PQexec(connection_.get(), "COMMIT")};
-    if (PQresultStatus(result.get()) != PGRES_COMMAND_OK) {
-        fail("whether the server kept the data is in doubt, look with 'macadam info'",
-             result.get());
+void ServerConnection::commit(std::span<const ServerStatement> last) {
+    if (last.empty() && !std::exchange(begin_, {}).empty()) {
+        return; // nothing was done
     }
+    // A warning of the commit may come with the answer before it: none is discarded in between.
+    warnings_->clear();
+    Pipeline pipeline{*this};
+    for (const auto& statement : last) {
+        pipeline.send_prepared(statement);
+    }
+    pipeline.send(ServerStatement{"COMMIT"});
+    const auto answers =
+        pipeline.answers("whether the server kept the data is in doubt, look with 'macadam info'");
     // A failed transaction answers COMMIT with success and the tag ROLLBACK.
-    if (std::string_view{PQcmdStatus(result.get())} != "COMMIT") {
+    if (answers.back().tag != "COMMIT") {
         throw InputError{fmt::format("{}: the server rolled back; nothing was written", address_)};
     }
     if (!warnings_->empty()) {
@@ -231,15 +390,21 @@ void ServerConnection::commit() {
     }
 }
 
-ServerTransaction::~ServerTransaction() {
-    if (is_open_) { // also ends a COPY; a broken connection rolls back by itself
-        const Result ignored{PQexec(server_->handle(), "ROLLBACK")};
+void ServerConnection::roll_back() {
+    if (std::exchange(begin_, {}).empty()) {
+        const Result ignored{PQexec(connection_.get(), "ROLLBACK")};
     }
 }
 
-void ServerTransaction::commit() {
+ServerTransaction::~ServerTransaction() {
+    if (is_open_) {
+        server_->roll_back();
+    }
+}
+
+void ServerTransaction::commit(std::span<const ServerStatement> last) {
     is_open_ = false; // whatever the server answers
-    server_->commit();
+    server_->commit(last);
 }
 
 std::vector<std::string> ServerConnection::take_warnings() {

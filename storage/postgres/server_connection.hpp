@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 struct pg_conn;
@@ -16,6 +19,16 @@ namespace macadam {
 
 /// Row of a result: `std::nullopt` is NULL.
 using ServerRow = std::vector<std::optional<std::string>>;
+
+/// Statement with the values of its parameters $1, $2, ...
+struct ServerStatement {
+    using Values = std::vector<std::optional<std::string>>;
+    explicit ServerStatement(std::string text, Values parameters = {})
+        : sql{std::move(text)}, values{std::move(parameters)} {}
+
+    std::string sql;
+    Values values;
+};
 
 /// Trouble of the server or the way to it, whatever it was asked: no connection, no room, an end by
 /// its operator, a standby that is missed.
@@ -52,6 +65,12 @@ public:
     std::vector<ServerRow> rows(const std::string& sql,
                                 const std::vector<std::optional<std::string>>& values = {});
 
+    /// Runs statements in order with one round trip; after one that fails, none. Each sees what was
+    /// committed before it began, as if it came alone. Texts are of a few kinds: the server keeps
+    /// each prepared until the end of the connection.
+    /// \returns the rows of each.
+    std::vector<std::vector<ServerRow>> rows_of_all(std::span<const ServerStatement> statements);
+
     /// Numbers of all columns, row by row.
     std::vector<std::int64_t> numbers(const std::string& sql,
                                       const std::vector<std::optional<std::string>>& values = {});
@@ -59,14 +78,22 @@ public:
     /// First column of the only row.
     std::int64_t number(const std::string& sql);
 
-    /// Begins a transaction. A reading one sees one moment until its end.
+    /// Begins a transaction, with the first statement in it. A reading one sees one moment until
+    /// its end.
     void begin(bool reads_only);
 
-    /// Commits. A server that gives up waiting for its standby reports success with a warning: then
-    /// a failover could lose the data.
+    /// Runs some last statements and commits, with one round trip. A server that gives up waiting
+    /// for its standby reports success with a warning: then a failover could lose the data.
     ///
     /// \throws InputError  that says so.
-    void commit();
+    void commit(std::span<const ServerStatement> last = {});
+
+    /// Ends a transaction, leaving nothing of it; also a COPY. A broken connection does so by
+    /// itself.
+    void roll_back();
+
+    /// Statement of our own, after the begin of the transaction if that still waits for one.
+    std::string with_begin(const std::string& sql);
 
     /// Warnings of the server since the last call.
     std::vector<std::string> take_warnings();
@@ -80,8 +107,16 @@ private:
     struct Finish {
         void operator()(pg_conn* connection) const;
     };
+    struct Answer {
+        std::string tag; ///< of the command
+        std::vector<ServerRow> rows;
+    };
+    class Pipeline;
+
     std::string address_;
-    std::unique_ptr<std::vector<std::string>> warnings_; ///< fixed address for the callback
+    std::string begin_;                                     ///< that waits for a first statement
+    std::unordered_map<std::string, std::string> prepared_; ///< name of each, by its text
+    std::unique_ptr<std::vector<std::string>> warnings_;    ///< fixed address for the callback
     std::unique_ptr<pg_conn, Finish> connection_;
 };
 
@@ -97,7 +132,7 @@ public:
     ~ServerTransaction();
 
     /// As ServerConnection::commit().
-    void commit();
+    void commit(std::span<const ServerStatement> last = {});
 
 private:
     ServerConnection* server_;

@@ -94,9 +94,8 @@ def store(connection, templates, number):
                     "INSERT INTO macadam.drive (trip, cell, chunk, drive, passes, body, first_m, place_sd_mm, iri,"
                     " iri_left) VALUES (%s, %s, %s, %s, %s, %s, %s, %s, %s, %s)", (row, *drive))
             for chunk in sorted({drive[1] for drive in drives}):
-                cursor.execute("INSERT INTO macadam.chunk_dirty AS dirty (chunk, since_ms) VALUES (%s, %s)"
-                               " ON CONFLICT (chunk) DO UPDATE SET marks = dirty.marks + 1",
-                               (chunk, int(1000 * time.time())))
+                cursor.execute("INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms) VALUES (%s, %s, %s)",
+                               (chunk, row, int(1000 * time.time())))
     del connection.notices[:]
     connection.commit()
     if any("WARNING" in notice for notice in connection.notices):

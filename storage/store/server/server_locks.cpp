@@ -1,5 +1,7 @@
 #include "storage/store/server/server_locks.hpp"
 
+#include "storage/postgres/server_array.hpp"
+
 #include <fmt/format.h>
 
 namespace macadam {
@@ -13,23 +15,36 @@ constexpr int of_all_places = -1; // beside the numbers of cells
 
 } // namespace
 
+ServerStatement sharing_database() {
+    return ServerStatement{fmt::format("SELECT pg_advisory_xact_lock_shared({}, 0)", of_database)};
+}
+
 void share_database(ServerConnection& server) {
-    server.rows(fmt::format("SELECT pg_advisory_xact_lock_shared({}, 0)", of_database));
+    server.rows(sharing_database().sql);
 }
 
 void take_database(ServerConnection& server) {
     server.rows(fmt::format("SELECT pg_advisory_lock({}, 0)", of_database));
 }
 
+ServerStatement asking_for_cells() {
+    return ServerStatement{"SELECT (to_regclass('macadam.cell_place') IS NOT NULL)::integer"};
+}
+
 bool has_cells(ServerConnection& server) {
-    return server.number("SELECT (to_regclass('macadam.cell_place') IS NOT NULL)::integer") != 0;
+    return server.number(asking_for_cells().sql) != 0;
+}
+
+ServerStatement sharing_cells(const std::set<std::int32_t>& cells) {
+    return ServerStatement{fmt::format("SELECT pg_advisory_xact_lock_shared({}, cell)"
+                                       " FROM unnest($1::integer[]) AS cell",
+                                       of_cells),
+                           {array_of(cells)}};
 }
 
 void share_cells(ServerConnection& server, const std::set<std::int32_t>& cells) {
-    server.rows(fmt::format("SELECT pg_advisory_xact_lock_shared({}, cell)"
-                            " FROM unnest($1::integer[]) AS cell",
-                            of_cells),
-                {fmt::format("{{{}}}", fmt::join(cells, ","))});
+    const auto sharing = sharing_cells(cells);
+    server.rows(sharing.sql, sharing.values);
 }
 
 void take_cell(ServerConnection& server, std::int32_t cell) {

@@ -14,6 +14,7 @@ namespace macadam {
 /// Shares the database with other importers until the end of the transaction; waits for who has it
 /// alone. A statement of its own, so that later ones see what he wrote.
 void share_database(ServerConnection& server);
+ServerStatement sharing_database();
 
 /// Takes the database alone, until the end of the connection; waits for all others.
 void take_database(ServerConnection& server);
@@ -23,11 +24,13 @@ void take_database(ServerConnection& server);
 
 /// Tests whether other servers hold cells of this database.
 bool has_cells(ServerConnection& server);
+ServerStatement asking_for_cells(); ///< gives 1 or 0
 
 /// Shares cells with who else reads or writes their drives until the end of the transaction; waits
 /// for who moves one. Before anything is read from them, so that nobody waits for a cell while he
 /// holds what its mover needs.
 void share_cells(ServerConnection& server, const std::set<std::int32_t>& cells);
+ServerStatement sharing_cells(const std::set<std::int32_t>& cells);
 
 /// Takes a cell alone, until the end of the transaction.
 void take_cell(ServerConnection& server, std::int32_t cell);

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -74,7 +74,7 @@ std::string read_by_all() {
 struct Migration {
     int number;
     const char* what;
-    const char* sql;
+    std::string sql;
 };
 
 /// A new database has the column from its table's definition.
@@ -83,13 +83,18 @@ ALTER TABLE macadam.trip ADD COLUMN IF NOT EXISTS trimmed_mm bigint NOT NULL DEF
 COMMENT ON COLUMN macadam.trip.trimmed_mm IS 'Left out at ends and long stops by the recorder, mm';
 )";
 
-const std::array migrations{Migration{2, "queue for workers", job_schema},
-                            Migration{3, "lengths that recorders trimmed", trimmed_lengths},
-                            Migration{4, "changes of chunks and trips", changes_migration_sql},
-                            Migration{5, "trips of logs", job_trip_schema}};
+std::vector<Migration> migrations() {
+    std::vector<Migration> all;
+    all.push_back({2, "queue for workers", job_schema()});
+    all.push_back({3, "lengths that recorders trimmed", trimmed_lengths});
+    all.push_back({4, "changes of chunks and trips", changes_migration_sql()});
+    all.push_back({5, "trips of logs", job_trip_schema()});
+    all.push_back({6, "marks of each trip", marks_migration_sql});
+    return all;
+}
 
 void run_migrations_after(int version, ServerConnection& server) {
-    for (const auto& [number, what, sql] : migrations) {
+    for (const auto& [number, what, sql] : migrations()) {
         if (number > version) {
             server.run(sql);
             server.rows("INSERT INTO macadam.migration VALUES ($1, $2)",

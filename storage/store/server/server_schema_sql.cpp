@@ -1,5 +1,7 @@
 #include "storage/store/server/server_schema_sql.hpp"
 
+#include "storage/postgres/role_grants.hpp"
+
 namespace macadam {
 
 const char* const schema_begin_sql = R"(
@@ -23,13 +25,13 @@ CREATE UNIQUE INDEX segment_key ON macadam.segment (cell, way_id, direction, seq
 CREATE INDEX drive_of_trip ON macadam.drive (trip);
 CREATE INDEX event_of_trip ON macadam.event (trip);
 CREATE INDEX way_name ON macadam.way (name);
-CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms, chunk);
+CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms);
 COMMENT ON INDEX macadam.segment_geom IS 'Segments by place';
 COMMENT ON INDEX macadam.segment_key IS 'Segments by key';
 COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
 COMMENT ON INDEX macadam.event_of_trip IS 'Defects of a trip, to forget it';
 COMMENT ON INDEX macadam.way_name IS 'Roads by name';
-COMMENT ON INDEX macadam.chunk_dirty_since IS 'Chunks to be fused, oldest first';
+COMMENT ON INDEX macadam.chunk_dirty_since IS 'Oldest mark of a chunk to be fused';
 )";
 
 // The same as drive_body.cpp reads. Differences wrap around there; in sound passes none does.
@@ -183,8 +185,10 @@ END $$;
 REVOKE ALL ON FUNCTION macadam.add_cell(integer) FROM PUBLIC;
 )";
 
+namespace {
+
 // A reader remembers the snapshot in which it copied: what that did not see has changed since.
-const char* const changes_migration_sql = R"(
+constexpr const char* changes = R"(
 CREATE TABLE macadam.chunk_change (
     chunk bigint PRIMARY KEY,
     changed xid8 NOT NULL DEFAULT pg_current_xact_id()
@@ -199,16 +203,38 @@ CREATE INDEX trip_changed ON macadam.trip (changed);
 COMMENT ON COLUMN macadam.trip.changed IS 'Transaction that stored it';
 COMMENT ON INDEX macadam.trip_changed IS 'Trips by the transaction that stored them';
 INSERT INTO macadam.meta VALUES ('store_rows', gen_random_uuid()::text) ON CONFLICT (key) DO NOTHING;
+)";
+
+} // namespace
+
+std::string changes_migration_sql() {
+    return changes +
+           granting("SELECT ON macadam.chunk_change, macadam.chunk_dirty",
+                    {"macadam_reader", "macadam_importer", "macadam_operator"}) +
+           granting("INSERT, UPDATE, DELETE ON macadam.chunk_change",
+                    {"macadam_importer", "macadam_operator"});
+}
+
+// A new database has the column from its table's definition.
+const char* const marks_migration_sql = R"(
+-- Queues, whose rows go soon: their dead rows must not wait for a share of a large table.
+ALTER TABLE macadam.chunk_dirty SET (autovacuum_vacuum_scale_factor = 0, autovacuum_vacuum_threshold = 20000);
+ALTER TABLE macadam.job SET (autovacuum_vacuum_scale_factor = 0.01, autovacuum_analyze_scale_factor = 0.01);
+ALTER TABLE macadam.drive DROP CONSTRAINT IF EXISTS drive_trip_fkey;
+COMMENT ON COLUMN macadam.drive.trip IS 'Trip; comes and goes with it in one transaction, so that a foreign key, which costs as much as the row itself, would guard nothing';
 DO $$
-DECLARE
-    role text;
 BEGIN
-    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_reader', 'macadam_importer', 'macadam_operator') LOOP
-        EXECUTE format('GRANT SELECT ON macadam.chunk_change, macadam.chunk_dirty TO %I', role);
-        IF role <> 'macadam_reader' THEN
-            EXECUTE format('GRANT INSERT, UPDATE, DELETE ON macadam.chunk_change TO %I', role);
-        END IF;
-    END LOOP;
+    IF EXISTS (SELECT FROM pg_attribute WHERE attrelid = 'macadam.chunk_dirty'::regclass AND attname = 'marks') THEN
+        ALTER TABLE macadam.chunk_dirty RENAME COLUMN marks TO trip;
+        UPDATE macadam.chunk_dirty SET trip = 0;
+        ALTER TABLE macadam.chunk_dirty ALTER COLUMN trip SET DEFAULT 0, DROP CONSTRAINT chunk_dirty_pkey,
+            ADD PRIMARY KEY (chunk, trip);
+        DROP INDEX macadam.chunk_dirty_since;
+        CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms);
+        COMMENT ON INDEX macadam.chunk_dirty_since IS 'Oldest mark of a chunk to be fused';
+        COMMENT ON COLUMN macadam.chunk_dirty.trip IS 'Row of the trip that brought drives, 0: another cause; who fused removes the rows that he read before the drives, so that none is lost';
+        COMMENT ON COLUMN macadam.chunk_dirty.since_ms IS 'Time of the mark, ms since 1970 UTC';
+    END IF;
 END $$;
 )";
 

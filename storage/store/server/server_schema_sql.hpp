@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace macadam {
 
 // Statements that make the schema of a database on a server; its tables are made from
@@ -14,6 +16,9 @@ extern const char* const schema_cells_sql;     ///< function that creates partit
 extern const char* const schema_roles_sql;
 
 /// Migration 4: what changed, for copies that are kept.
-extern const char* const changes_migration_sql;
+std::string changes_migration_sql();
+
+/// Migration 6: a mark for each trip over a chunk, which nobody waits for.
+extern const char* const marks_migration_sql;
 
 } // namespace macadam

@@ -67,7 +67,10 @@ constexpr std::array trip{
 constexpr std::array drive{
     ServerColumn{"cell", "integer NOT NULL", cell_meaning},
     ServerColumn{"chunk", "bigint NOT NULL", "Row of the first segment of the chunk"},
-    ServerColumn{"trip", "bigint NOT NULL REFERENCES macadam.trip", "Trip"},
+    ServerColumn{"trip",
+                 "bigint NOT NULL",
+                 "Trip; comes and goes with it in one transaction, so that a foreign key, which "
+                 "costs as much as the row itself, would guard nothing"},
     ServerColumn{"drive",
                  "bigint NOT NULL",
                  "Number of the trip's drive over the chunk, from 0; "
@@ -142,11 +145,12 @@ constexpr std::array control_section{
 
 constexpr std::array chunk_dirty{
     ServerColumn{"chunk", "bigint NOT NULL", "Row of the first segment of a chunk to be fused"},
-    ServerColumn{"marks",
-                 "bigint NOT NULL DEFAULT 1",
-                 "Grows with each mark; who fused removes the row only if it is as when he read "
-                 "the passes, so that no mark is lost"},
-    ServerColumn{"since_ms", "bigint NOT NULL", "First mark, ms since 1970 UTC"}};
+    ServerColumn{
+        "trip",
+        "bigint NOT NULL DEFAULT 0",
+        "Row of the trip that brought drives, 0: another cause; who fused removes the rows "
+        "that he read before the drives, so that none is lost"},
+    ServerColumn{"since_ms", "bigint NOT NULL", "Time of the mark, ms since 1970 UTC"}};
 
 constexpr std::array row_reason{
     ServerColumn{"trip", "bigint NOT NULL REFERENCES macadam.trip", "Trip"},
@@ -288,7 +292,7 @@ constexpr std::array tables{
                 "Chunks with drives that are not fused yet",
                 trips,
                 chunk_dirty,
-                "PRIMARY KEY (chunk)"},
+                "PRIMARY KEY (chunk, trip)"},
     ServerTable{"import_note",
                 "Imports that began and did not end",
                 trips,

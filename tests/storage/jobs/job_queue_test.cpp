@@ -377,7 +377,7 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
                 " ALTER TABLE macadam.trip DROP COLUMN changed, DROP COLUMN trimmed_mm;"
                 " DELETE FROM macadam.migration WHERE number > 1");
     EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
-                AllOf(HasSubstr("its schema is of version 1, expected 5"),
+                AllOf(HasSubstr("its schema is of version 1, expected 6"),
                       HasSubstr("macadam upgrade postgresql://")));
     EXPECT_EQ(upgrade_server_schema(queue()), 1);
     EXPECT_EQ(upgrade_server_schema(queue()), server_schema_version);

@@ -1,6 +1,7 @@
 #include "storage/store/server/cells/cell_drives.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_tables.hpp"
 
@@ -11,11 +12,6 @@
 
 namespace macadam {
 namespace {
-
-template <typename Numbers>
-std::string array_of(const Numbers& numbers) {
-    return fmt::format("{{{}}}", fmt::join(numbers, ","));
-}
 
 /// Sends a call for each cell.
 void send_drives(ServerConnection& front) {

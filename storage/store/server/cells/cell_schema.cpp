@@ -1,6 +1,7 @@
 #include "storage/store/server/cells/cell_schema.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/role_grants.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_tables.hpp"
@@ -27,16 +28,6 @@ COMMENT ON TABLE macadam_cells.address IS 'Other servers that hold cells of this
 COMMENT ON COLUMN macadam_cells.address.name IS 'Name of the foreign server';
 COMMENT ON COLUMN macadam_cells.address.connection IS 'How this server connects to it; passwords are in .pgpass of its user';
 COMMENT ON FUNCTION macadam_cells.connection_of(text) IS 'How this server connects to one that holds cells';
-DO $$
-DECLARE
-    role text;
-BEGIN
-    FOR role IN SELECT nspowner::regrole::text FROM pg_namespace WHERE nspname = 'macadam'
-                UNION SELECT rolname::text FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
-        EXECUTE format('GRANT USAGE ON SCHEMA macadam_cells TO %s', role);
-        EXECUTE format('GRANT SELECT, REFERENCES ON macadam_cells.address TO %s', role);
-    END LOOP;
-END $$;
 )sql";
 
 /// On the front, as its owner.
@@ -100,16 +91,6 @@ BEGIN
         EXECUTE statement;
     END LOOP;
 END $$;
-
-DO $$
-DECLARE
-    role text;
-BEGIN
-    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
-        EXECUTE format('GRANT SELECT ON macadam.cell_place TO %I', role);
-        EXECUTE format('GRANT SELECT, INSERT, UPDATE, DELETE ON macadam.unfinished TO %I', role);
-    END LOOP;
-END $$;
 )sql";
 
 /// On the front, as a superuser: functions that run on the server named by their first argument.
@@ -126,17 +107,6 @@ COMMENT ON FUNCTION macadam.put_drives IS 'Stores drives in a table of another s
 COMMENT ON FUNCTION macadam.add_cell_tables IS 'Creates tables of a cell on another server, filled from those of another number there';
 COMMENT ON FUNCTION macadam.drop_cell_tables IS 'Removes tables of cells on another server but those of these numbers';
 REVOKE ALL ON FUNCTION macadam.put_drives, macadam.add_cell_tables, macadam.drop_cell_tables FROM PUBLIC;
-DO $$
-DECLARE
-    role text;
-BEGIN
-    FOR role IN SELECT rolname FROM pg_roles WHERE rolname IN ('macadam_importer', 'macadam_operator') LOOP
-        EXECUTE format('GRANT EXECUTE ON FUNCTION macadam.put_drives TO %I', role);
-    END LOOP;
-    SELECT nspowner::regrole INTO role FROM pg_namespace WHERE nspname = 'macadam';
-    EXECUTE format('GRANT EXECUTE ON FUNCTION macadam.put_drives, macadam.add_cell_tables,'
-                   ' macadam.drop_cell_tables TO %s', role);
-END $$;
 )sql";
 
 /// On a server that holds cells: the same functions, and empty tables, as which those are made that
@@ -283,10 +253,7 @@ void add_foreign_server(ServerConnection& front,
                           server.name,
                           user,
                           user.empty() ? "" : ", "));
-    front.run(fmt::format("DO $$ BEGIN EXECUTE format('GRANT USAGE ON FOREIGN SERVER {} TO %s',"
-                          " (SELECT nspowner::regrole FROM pg_namespace WHERE nspname ="
-                          " 'macadam')); END $$",
-                          server.name));
+    front.run(granting_to_owner(fmt::format("USAGE ON FOREIGN SERVER {}", server.name)));
 }
 
 std::string connection_text(const std::string& address) {
@@ -298,6 +265,24 @@ std::string connection_text(const std::string& address) {
                             with(with(value, "\\", "\\\\"), "'", "\\'"));
     }
     return text;
+}
+
+/// Prepares a database for cells on other servers.
+void create_front(ServerConnection& front) {
+    const auto importers = {std::string_view{"macadam_importer"},
+                            std::string_view{"macadam_operator"}};
+    constexpr const char* use_schema = "USAGE ON SCHEMA macadam_cells";
+    constexpr const char* see_addresses = "SELECT, REFERENCES ON macadam_cells.address";
+    front.run(front_addresses + granting(use_schema, importers) + granting_to_owner(use_schema) +
+              granting(see_addresses, importers) + granting_to_owner(see_addresses));
+    act_as_owner(front);
+    front.run(front_tables + granting("SELECT ON macadam.cell_place", importers) +
+              granting("SELECT, INSERT, UPDATE, DELETE ON macadam.unfinished", importers));
+    front.run("RESET ROLE");
+    front.run(with_columns(front_functions) +
+              granting("EXECUTE ON FUNCTION macadam.put_drives", importers) +
+              granting_to_owner("EXECUTE ON FUNCTION macadam.put_drives, macadam.add_cell_tables,"
+                                " macadam.drop_cell_tables"));
 }
 
 } // namespace
@@ -335,11 +320,7 @@ CellServer add_cell_server(ServerConnection& front, const std::string& address) 
     take_database(front); // changes of tables that importers use would stop in one another's way
     ServerTransaction all{front};
     if (!has_cells(front)) {
-        front.run(front_addresses);
-        act_as_owner(front);
-        front.run(front_tables);
-        front.run("RESET ROLE");
-        front.run(with_columns(front_functions));
+        create_front(front);
     }
     CellServer server;
     server.name = fmt::format("macadam_cells_{}",

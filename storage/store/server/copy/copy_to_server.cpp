@@ -201,7 +201,7 @@ private:
     void copy_marks(const ServerTable& table) {
         CopyWriter writer{*server_, copy_target(table), columns_of(table)};
         for (const auto chunk : dirty_chunks(*file_)) {
-            writer.add(chunk, std::int64_t{1}, std::int64_t{0});
+            writer.add(chunk, std::int64_t{0}, std::int64_t{0});
         }
         writer.finish();
     }

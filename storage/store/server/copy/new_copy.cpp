@@ -1,6 +1,7 @@
 #include "storage/store/server/copy/new_copy.hpp"
 
 #include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/schema/new_store.hpp"
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/store/schema/store_schema.hpp"
@@ -73,7 +74,7 @@ void copy_trips_of_passes(RowsFromServer& rows, Database& file) {
     in_batches(std::span{cars}, [&](auto batch) {
         for (const auto* const table : {"calibration", "calibration_period"}) {
             rows.copy_rows(server_table(table),
-                           fmt::format("vehicle = ANY('{}'::bigint[])", array_of_numbers(batch)));
+                           fmt::format("vehicle = ANY('{}'::bigint[])", array_of(batch)));
         }
     });
     for (const auto* const table : tables_of_fusion) {
@@ -128,8 +129,7 @@ void fill_part(RowsFromServer& rows,
         in_batches(chunks, [&](auto batch) { rows.copy_segments(batch); });
         const auto ways = numbers_in(file, "SELECT DISTINCT way_id FROM segment");
         in_batches(std::span{ways}, [&](auto batch) {
-            const auto condition =
-                fmt::format("way_id = ANY('{}'::bigint[])", array_of_numbers(batch));
+            const auto condition = fmt::format("way_id = ANY('{}'::bigint[])", array_of(batch));
             rows.copy_rows(server_table("way"), condition);
         });
         copy_chunks(rows, chunks, content.passes);

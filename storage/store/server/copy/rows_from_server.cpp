@@ -5,6 +5,7 @@
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/copy_stream.hpp"
 #include "storage/postgres/ewkb.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
 #include "storage/store/rows/pass_row.hpp"
 #include "storage/store/rows/segment_row.hpp"
@@ -47,8 +48,8 @@ std::string wanted(std::span<const ServerChunk> chunks) {
         rows.push_back(row);
     }
     return fmt::format("unnest('{}'::integer[], '{}'::bigint[]) AS wanted (cell, chunk)",
-                       array_of_numbers(cells),
-                       array_of_numbers(rows));
+                       array_of(cells),
+                       array_of(rows));
 }
 
 constexpr std::string_view in_segments =
@@ -65,10 +66,6 @@ std::vector<std::int64_t> numbers_in(Database& file, const char* sql) {
 }
 
 } // namespace
-
-std::string array_of_numbers(std::span<const std::int64_t> numbers) {
-    return fmt::format("{{{}}}", fmt::join(numbers, ","));
-}
 
 RowsFromServer::RowsFromServer(ServerConnection& server, Database& file, const Progress& progress)
     : server_{&server}, file_{&file}, progress_{&progress} {
@@ -261,13 +258,13 @@ void RowsFromServer::copy_drives(const Chunks& chunks) {
 }
 
 void RowsFromServer::copy_marks() {
-    const auto& table = server_table("chunk_dirty");
     auto mark = file_->prepare("INSERT INTO strip_dirty SELECT fid FROM segment WHERE fid = ?");
     auto mark_segments = file_->prepare(
         "INSERT INTO segment_dirty SELECT DISTINCT pass.segment FROM pass CROSS JOIN segment"
         " ON segment.fid = pass.segment WHERE pass.segment >= ?1 AND pass.segment < ?1 + ?2"
         " AND segment.strip = ?1");
-    CopyReader reader{*server_, copy_target(table), table.name, columns_of(table)};
+    CopyReader reader{
+        *server_, "(SELECT DISTINCT chunk FROM macadam.chunk_dirty)", "chunk_dirty", 1};
     while (reader.next()) {
         const auto chunk = reader.row().integer(0);
         mark.run(chunk);
@@ -279,7 +276,7 @@ void RowsFromServer::copy_trips(std::span<const std::int64_t> trips) {
     if (trips.empty()) {
         return;
     }
-    const auto ids = array_of_numbers(trips);
+    const auto ids = array_of(trips);
     copy_rows(server_table("vehicle"),
               fmt::format("id IN (SELECT vehicle FROM macadam.trip WHERE id = ANY('{}'::bigint[]))",
                           ids));
@@ -295,7 +292,7 @@ void RowsFromServer::copy_audit_of_changes() {
                                     " (SELECT id FROM audit)");
     if (!missing.empty()) {
         copy_rows(server_table("audit"),
-                  fmt::format("id = ANY('{}'::bigint[])", array_of_numbers(missing)));
+                  fmt::format("id = ANY('{}'::bigint[])", array_of(missing)));
     }
 }
 

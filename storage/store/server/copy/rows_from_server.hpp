@@ -25,9 +25,6 @@ struct ServerChunk {
     friend auto operator<=>(const ServerChunk&, const ServerChunk&) = default;
 };
 
-/// Array of PostgreSQL.
-std::string array_of_numbers(std::span<const std::int64_t> numbers);
-
 /// Copies rows of a database on a server into the tables of a file. Rows of chunks are copied for
 /// all chunks or for some, which must not be empty. Consistent only within a transaction.
 ///

@@ -12,16 +12,34 @@
 
 namespace macadam {
 
-ServerSettings read_server_settings(ServerConnection& server) {
+ServerStatement asking_for_settings() {
+    return ServerStatement{"SELECT key, value FROM macadam.meta"
+                           " WHERE key IN ('network_rows', 'privacy', 'key_id')"};
+}
+
+ServerSettings settings_in(const std::vector<ServerRow>& rows) {
     ServerSettings settings;
-    for (const auto& row : server.rows("SELECT key, value FROM macadam.meta WHERE key IN"
-                                       " ('network_rows', 'privacy', 'key_id')")) {
+    for (const auto& row : rows) {
         const auto value = row[1].value_or("");
         (row[0] == "network_rows" ? settings.network_rows
          : row[0] == "privacy"    ? settings.privacy
                                   : settings.key_id) = value;
     }
     return settings;
+}
+
+ServerSettings read_server_settings(ServerConnection& server) {
+    return settings_in(server.rows(asking_for_settings().sql));
+}
+
+void expect_same_settings(const ServerConnection& server,
+                          const ServerSettings& before,
+                          const ServerSettings& now) {
+    if (now != before) {
+        throw InputError{fmt::format("{}: its roads or its key were changed in the meantime; "
+                                     "nothing was written, run the command again",
+                                     server.address())};
+    }
 }
 
 std::shared_ptr<StoreConnection> open_network_image(ServerConnection& server,

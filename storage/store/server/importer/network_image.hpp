@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 namespace macadam {
 
@@ -21,6 +22,17 @@ struct ServerSettings {
 };
 
 ServerSettings read_server_settings(ServerConnection& server);
+
+/// \name The same among other statements
+/// @{
+ServerStatement asking_for_settings();
+ServerSettings settings_in(const std::vector<ServerRow>& rows);
+/// @}
+
+/// \throws InputError  if they have changed, and nothing is to be written.
+void expect_same_settings(const ServerConnection& server,
+                          const ServerSettings& before,
+                          const ServerSettings& now);
 
 /// Opens the roads and settings of a database on a server for reading: a database without trips
 /// that is kept among this user's files, fetched if it is not there yet.

@@ -1,6 +1,7 @@
 #include "storage/store/server/importer/server_fusion.hpp"
 
 #include "storage/postgres/copy_stream.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/rows/audit.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_rows.hpp"
@@ -18,10 +19,6 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t chunks_in_batch = 64;
-
-std::string array_of(std::span<const std::int64_t> numbers) {
-    return fmt::format("{{{}}}", fmt::join(numbers, ","));
-}
 
 using States = std::map<std::int64_t, SegmentState>; ///< by row of the segment, without its key
 
@@ -142,8 +139,9 @@ void write_numbers(ServerConnection& server,
 /// Chunks that are fused in one transaction.
 struct ServerFusion::Batch {
     std::vector<std::int64_t> chunks; ///< rising
-    std::vector<std::int64_t> marks;  ///< of each, as read before its drives
     std::vector<FusedChunk> fused;    ///< of each
+    std::vector<std::int64_t> marked; ///< chunk of each mark that was read before the drives
+    std::vector<std::int64_t> trips;  ///< trip of each
 };
 
 ServerFusion::ServerFusion(ServerConnection& server,
@@ -154,8 +152,8 @@ ServerFusion::ServerFusion(ServerConnection& server,
       expect_same_{std::move(expect_same)}, scratch_{server, image, rows} {}
 
 std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& record) {
-    const auto waiting =
-        server_->numbers("SELECT chunk FROM macadam.chunk_dirty ORDER BY since_ms, chunk");
+    const auto waiting = server_->numbers("SELECT chunk FROM macadam.chunk_dirty GROUP BY chunk"
+                                          " ORDER BY min(since_ms), chunk");
     const auto before = record.segments.size();
     // Chunks that others fuse just now are left to the end, and then waited for one by one: who
     // holds several locks never waits for another one.
@@ -196,12 +194,15 @@ ServerFusion::fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecor
     expect_same_();
     auto locked = lock(chunks, waits); // a statement of its own: later ones see what came before it
     Batch batch;
-    const auto marks = server_->numbers("SELECT chunk, marks FROM macadam.chunk_dirty"
+    const auto marks = server_->numbers("SELECT chunk, trip FROM macadam.chunk_dirty"
                                         " WHERE chunk = ANY($1::bigint[]) ORDER BY chunk",
                                         {array_of(locked)});
     for (std::size_t i = 0; i + 1 < marks.size(); i += 2) {
-        batch.chunks.push_back(marks[i]);
-        batch.marks.push_back(marks[i + 1]);
+        if (batch.chunks.empty() || batch.chunks.back() != marks[i]) {
+            batch.chunks.push_back(marks[i]);
+        }
+        batch.marked.push_back(marks[i]);
+        batch.trips.push_back(marks[i + 1]);
     }
     if (!batch.chunks.empty()) {
         std::set<std::int32_t> cells;
@@ -263,16 +264,11 @@ void ServerFusion::write_alignments(const Batch& batch) {
     writer.finish();
 }
 
-/// Importers mark chunks in the same order. Who is about to mark one is waited for by the first
-/// statement; the second one then sees his mark and leaves the chunk to the next fusion.
+/// Marks that came later stay: their drives may have been missed.
 void ServerFusion::remove_marks(const Batch& batch) {
-    server_->rows("SELECT chunk FROM macadam.chunk_dirty WHERE chunk = ANY($1::bigint[])"
-                  " ORDER BY chunk FOR UPDATE",
-                  {array_of(batch.chunks)});
-    server_->rows("DELETE FROM macadam.chunk_dirty USING unnest($1::bigint[], $2::bigint[])"
-                  " AS seen (chunk, marks) WHERE chunk_dirty.chunk = seen.chunk"
-                  " AND chunk_dirty.marks = seen.marks",
-                  {array_of(batch.chunks), array_of(batch.marks)});
+    server_->rows("DELETE FROM macadam.chunk_dirty WHERE chunk = ANY($1::bigint[])"
+                  " AND (chunk, trip) IN (SELECT * FROM unnest($2::bigint[], $3::bigint[]))",
+                  {array_of(batch.chunks), array_of(batch.marked), array_of(batch.trips)});
 }
 
 } // namespace macadam

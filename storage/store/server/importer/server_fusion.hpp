@@ -19,8 +19,8 @@ namespace macadam {
 /// Fuses chunks of a database on a server, beside any number of others that import and fuse.
 ///
 /// A batch of chunks is one transaction: it locks each chunk by an advisory lock of its number,
-/// reads its mark, then its drives, fuses them, writes what changed, and removes the mark only if
-/// it is as it was when read, so that no drive that arrives meanwhile is left unfused.
+/// reads its marks, then its drives, fuses them, writes what changed, and removes the marks that it
+/// had read, so that no drive that arrives meanwhile is left unfused.
 class ServerFusion {
 public:
     /// \param image  roads of the database; outlives this object, as do the others.

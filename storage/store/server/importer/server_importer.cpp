@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -79,11 +80,8 @@ public:
         if (std::ranges::any_of(trips, [](const auto& t) { return !t.trip->vehicle_id.empty(); })) {
             make_missing_key();
         }
-        ServerTransaction all{*server_};
-        expect_same();
-        auto added = write_trips(*server_, cell_drives_, *image_, rows_, key(), trips);
-        all.commit();
-        return added;
+        const TripTarget target{*server_, cell_drives_, settings_, *image_, rows_, key()};
+        return write_trips(target, trips);
     }
 
     BegunImport begin_import(const std::string& name, std::size_t trips_asked) override {
@@ -112,7 +110,8 @@ public:
 
     std::size_t waiting() override {
         std::size_t segments = 0;
-        for (const auto chunk : server_->numbers("SELECT chunk FROM macadam.chunk_dirty")) {
+        for (const auto chunk :
+             server_->numbers("SELECT DISTINCT chunk FROM macadam.chunk_dirty")) {
             const auto& place = rows_.place_of(chunk);
             segments += static_cast<std::size_t>(place.last - place.first + 1);
         }
@@ -150,12 +149,8 @@ private:
     /// Begins the work of a transaction, beside other importers but not beside who changes rules or
     /// roads.
     void expect_same() {
-        share_database(*server_);
-        if (read_server_settings(*server_) != settings_) {
-            throw InputError{fmt::format("{}: its roads or its key were changed in the meantime; "
-                                         "nothing was written, run the command again",
-                                         server_->address())};
-        }
+        const std::array begin{sharing_database(), asking_for_settings()};
+        expect_same_settings(*server_, settings_, settings_in(server_->rows_of_all(begin).at(1)));
     }
 
     /// Waits until a trip that the server has is on its standby too: whoever stored it may still
@@ -195,6 +190,9 @@ private:
 
 ServerImport open_server_import(const std::string& address, const Progress& progress) {
     auto server = std::make_unique<ServerConnection>(address);
+    // All that an import looks up has an index, and tables grow faster than what the planner knows
+    // of them.
+    server->run("SET enable_seqscan = off; SET jit = off");
     ServerTransaction one_moment{*server, true};
     expect_server_schema(*server);
     auto settings = read_server_settings(*server);

@@ -11,20 +11,25 @@
 
 namespace macadam {
 
-/// Writes trips with their drives and events, and marks their chunks, within the caller's
-/// transaction. A trip that is already stored or was forgotten is skipped.
+/// Where trips are written.
+struct TripTarget {
+    ServerConnection& server;
+    CellDrives& cells; ///< of the same connection
+    const ServerSettings& settings;
+    StoreConnection& image; ///< roads of the database
+    ImageRows& rows;        ///< of the same image
+    const PrivacyKey* key;  ///< null: the trips name no cars
+};
+
+/// Writes trips with their drives and events, and marks their chunks, in one transaction of four
+/// round trips. A trip that is already stored or was forgotten is skipped.
 ///
-/// Rows on which others could wait are taken in one order by all: vehicles, trips, chunks, each
-/// rising; so nobody waits in a circle.
+/// Rows on which others could wait are taken in one order by all: vehicles, trips, each rising; so
+/// nobody waits in a circle. Who drives over the same roads does not wait.
 ///
-/// \param cells  of the same connection
-/// \param key  null: the trips name no cars.
 /// \returns for each trip whether it is new.
-std::vector<bool> write_trips(ServerConnection& server,
-                              CellDrives& cells,
-                              const StoreConnection& image,
-                              ImageRows& rows,
-                              const PrivacyKey* key,
-                              std::span<const NewTrip> trips);
+///
+/// \throws InputError  also if the roads or the key of the database were changed.
+std::vector<bool> write_trips(const TripTarget& target, std::span<const NewTrip> trips);
 
 } // namespace macadam

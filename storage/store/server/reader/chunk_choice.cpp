@@ -2,6 +2,7 @@
 
 #include "mapping/geometry/antimeridian.hpp"
 #include "mapping/geometry/area.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/text/case_folding.hpp"
 
@@ -99,7 +100,7 @@ Conditions conditions_of(ServerConnection& server, const SegmentFilter& filter) 
     }
     if (filter.key || filter.ranges) {
         const std::vector<std::int64_t> ids{ways.begin(), ways.end()};
-        conditions.add("segment.way_id = ANY({}::bigint[])", array_of_numbers(ids));
+        conditions.add("segment.way_id = ANY({}::bigint[])", array_of(ids));
     }
     if (filter.way_id) {
         conditions.add("segment.way_id = {}::bigint", std::to_string(*filter.way_id));

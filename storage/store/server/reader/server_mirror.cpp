@@ -169,7 +169,8 @@ public:
         auto select = file_->prepare("SELECT value FROM meta WHERE key = ?");
         const auto before = select.bind(mirror_moment_key).step() ? select.text(0) : "";
         select.reset();
-        const auto marks = server_->numbers("SELECT chunk FROM macadam.chunk_dirty ORDER BY 1");
+        const auto marks =
+            server_->numbers("SELECT DISTINCT chunk FROM macadam.chunk_dirty ORDER BY 1");
         auto changed = since(before, "SELECT chunk FROM macadam.chunk_change");
         const auto trips =
             has_trips_ ? since(before, "SELECT id FROM macadam.trip") : std::vector<std::int64_t>{};

@@ -382,7 +382,7 @@ private:
         const auto& table = server_table("chunk_dirty");
         CopyWriter writer{*server_, copy_target(table), static_cast<int>(table.columns.size())};
         for (const auto chunk : dirty_chunks(*file_)) {
-            writer.add(chunk, std::int64_t{1}, std::int64_t{0});
+            writer.add(chunk, std::int64_t{0}, std::int64_t{0});
         }
         writer.finish();
     }

@@ -308,7 +308,7 @@ TEST_F(Cells, CountDrivesOnlyOfTripsThatTheFrontHas) {
               " place_sd_mm, iri, iri_left FROM macadam.drive WHERE trip = 1 AND cell ="
               " (SELECT cell FROM macadam.cell_place);"
               "INSERT INTO macadam.unfinished VALUES (1000, now() - interval '1 hour');"
-              "INSERT INTO macadam.chunk_dirty SELECT DISTINCT chunk, 1, 0 FROM macadam.drive");
+              "INSERT INTO macadam.chunk_dirty SELECT DISTINCT chunk, 0, 0 FROM macadam.drive");
     fuse_all(*open_server_import(front_).trips);
     EXPECT_EQ(digest(), before);
     EXPECT_EQ(copy_from_server(front_, folder_ / "copy.gpkg", {}).digest, before);

@@ -138,17 +138,58 @@ TEST_F(ServerImports, BesideWhoMaintainsTheDatabaseHaveTheDigestOfAFile) {
 
 TEST_F(ServerImports, LoseNoMarkThatIsSetWhileAChunkIsFused) {
     const auto store = database_.import();
-    add_rich_trip(*store.trips, 1);
-    ServerConnection importer{database_.name()};
-    importer.begin(false);
-    importer.run("UPDATE macadam.chunk_dirty SET marks = marks + 1"); // as one more drive does
+    add_rich_trip(*store.trips, 0);
+    ServerConnection holder{database_.name()};
+    holder.begin(false);
+    holder.run("LOCK TABLE macadam.chunk_change IN SHARE MODE"); // which fusion writes in the end
     auto fusing = std::async(std::launch::async, [&] { fuse_all(*store.trips); });
-    await_waiter("wait_event_type = 'Lock' AND query LIKE '%FOR UPDATE%'");
-    importer.commit();
+    await_waiter("wait_event_type = 'Lock' AND query LIKE '%chunk_change%'");
+    add_rich_trip(*database_.import().trips, 1);
+    holder.commit();
     fusing.get();
-    EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty WHERE marks = 2"), 2);
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty"), 2);
     fuse_all(*store.trips);
     EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty"), 0);
+    EXPECT_EQ(database_.read().digest(), file_digest(2));
+}
+
+TEST_F(ServerImports, WaitForNobodyWhoDrivesOverTheSameRoads) {
+    const auto store = database_.import();
+    add_rich_trip(*store.trips, 0);
+    ServerConnection other{database_.name()};
+    other.begin(false); // as a trip that waits for its standby: an end after this one
+    other.run("INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms)"
+              " SELECT chunk, 1000, 0 FROM macadam.chunk_dirty");
+    add_rich_trip(*store.trips, 1);
+    fuse_all(*store.trips);
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty"), 0);
+    other.commit();
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.chunk_dirty"), 2);
+}
+
+/// What an administrator would see in EXPLAIN of each statement: which tables were read from their
+/// begin to their end.
+TEST_F(ServerImports, FindAllThatTheyLookUpByIndexes) {
+    const std::string scans =
+        "SELECT relname || ' ' || seq_scan FROM pg_stat_user_tables"
+        " WHERE schemaname = 'macadam' AND (relname ~ '^(drive|segment_state)_'"
+        " OR relname IN ('trip', 'vehicle', 'forgotten', 'chunk_dirty',"
+        " 'chunk_state', 'chunk_change', 'state_change', 'event',"
+        " 'event_search', 'row_reason', 'audit', 'valid_from')) ORDER BY 1";
+    import_rich_trips(*database_.import().trips, 2); // opened and closed: its counts are told
+    const auto before = ServerConnection{database_.name()}.rows(scans);
+    ASSERT_GE(before.size(), 14U);
+    {
+        const auto store = database_.import();
+        for (int number = 2; number < 40; ++number) {
+            add_rich_trip(*store.trips, number);
+        }
+        fuse_all(*store.trips);
+        add_rich_trip(*store.trips, 5); // known
+        EXPECT_TRUE(store.trips->contains_trip(RichTrip{5}.record.sha256));
+        EXPECT_FALSE(store.trips->has_forgotten(RichTrip{5}.record.sha256));
+    }
+    EXPECT_EQ(ServerConnection{database_.name()}.rows(scans), before);
 }
 
 TEST_F(ServerImports, SayThatATripIsInDoubtUntilItsStandbyHasIt) {
