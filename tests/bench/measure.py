@@ -9,7 +9,7 @@ WORK_DIR       where the measured data is made and kept between runs
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
 --soak MINUTES how long `serve` also works at half load, to see whether it grows
-NAME           start process estimation match store calibration render vector_tile web serve; all when none
+NAME           start process estimation match store writers calibration render vector_tile web serve; all when none
                is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
@@ -28,6 +28,7 @@ import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -277,6 +278,7 @@ PARTS = {
                    "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
+          "writers": "Writers of a PostgreSQL server",
           "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles", "web": "Web page", "serve": "Server"}
 
 
@@ -362,6 +364,33 @@ def web_page(build, work, macadam):
         table(["page", "first picture", "transferred", "panning", "memory of its process"], []) + rows
 
 
+def writers(build):
+    """Trips stored on a PostgreSQL server of its own, which syncs them to the disk of /tmp, by up to four writers."""
+    programs = max(Path("/usr/lib/postgresql").glob("*/bin"))
+    folder = Path(tempfile.mkdtemp(prefix="macadam-pg-", dir="/tmp"))  # paths of sockets are short
+    ordinary = ["setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"] if os.geteuid() == 0 else []
+    if ordinary:
+        shutil.chown(folder, "nobody", "nogroup")
+    environment = {**os.environ, "XDG_CACHE_HOME": str(folder / "own"), "XDG_CONFIG_HOME": str(folder / "own")}
+    (folder / "own").mkdir()
+
+    def call(*words):
+        return subprocess.run([str(word) for word in words], check=True, text=True, stdout=subprocess.PIPE, cwd="/", env=environment).stdout
+
+    call(*ordinary, programs / "initdb", "-D", folder / "data", "-U", "bench", "-A", "trust", "-E", "UTF8", "--locale=C.UTF-8")
+    control = [*ordinary, programs / "pg_ctl", "-D", folder / "data", "-w", "-l", folder / "data" / "log"]
+    call(*control, "-o", f"-c listen_addresses= -c unix_socket_directories={folder} -c shared_buffers=512MB -c max_wal_size=4GB", "start")
+    try:
+        call(programs / "psql", "-qX", "-h", folder, "-U", "bench", "postgres", "-c", "CREATE EXTENSION postgis")
+        say("server_writers")
+        return "Trips of 500 passes on some 90 chunks, with traces, each in a transaction that is synced; beside them the same rows in a " + \
+            "COPY into a table without keys (tests/bench/server_writers.cpp); medians of three rounds, in turns.\n\n" + \
+            call(build / "tests" / "bench" / "server_writers", f"postgresql://bench@/postgres?host={folder}")
+    finally:
+        call(*control, "-m", "immediate", "stop")
+        shutil.rmtree(folder)
+
+
 def calibration(build, work, macadam, cars):
     """`calibrate` and `info` of fleets that double, to `cars`."""
     rows = []
@@ -386,6 +415,8 @@ def calibration(build, work, macadam, cars):
 def measured(name, arguments, macadam):
     if name == "calibration":
         return calibration(arguments.build, arguments.work, macadam, arguments.cars)
+    if name == "writers":
+        return writers(arguments.build)
     if name == "start":
         return start(macadam, arguments.work)
     if name == "process":

@@ -1,0 +1,112 @@
+#include "storage/postgres/server_connection.hpp"
+
+#include "storage/postgres/server_array.hpp"
+#include "support/program/postgres_server.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+class ServerConnections : public ::testing::Test {
+protected:
+    ServerConnections() {
+        server_.run("DROP TABLE IF EXISTS public.number;"
+                    "CREATE TABLE public.number (value integer UNIQUE)");
+    }
+
+    std::int64_t count() {
+        return ServerConnection{address_}.number("SELECT count(*) FROM public.number");
+    }
+
+    static PostgresServer& one_server() {
+        static PostgresServer server{std::chrono::seconds{60}};
+        return server;
+    }
+
+    std::string address_ = one_server().address();
+    ServerConnection server_{address_};
+    const ServerStatement insert_{"INSERT INTO public.number VALUES ($1::integer) RETURNING value"};
+    const ServerStatement divide_{"SELECT 1 / $1::integer"};
+
+    static ServerStatement with(ServerStatement statement, int value) {
+        statement.values = {std::to_string(value)};
+        return statement;
+    }
+};
+
+TEST_F(ServerConnections, RunStatementsTogetherAndTellWhatEachGave) {
+    const std::array all{with(insert_, 7), with(divide_, 1), with(insert_, 8)};
+    const std::vector<std::vector<ServerRow>> expected{{{"7"}}, {{"1"}}, {{"8"}}};
+    EXPECT_EQ(server_.rows_of_all(all), expected);
+}
+
+TEST_F(ServerConnections, RunNoStatementAfterOneThatFailsAndGoOnLater) {
+    const std::array all{with(insert_, 1), with(divide_, 0), with(insert_, 2)};
+    for (int repetition = 0; repetition < 2; ++repetition) { // prepared for the first time, and not
+        ServerTransaction one{server_};
+        EXPECT_THAT([&] { server_.rows_of_all(all); },
+                    ThrowsMessage<InputError>(HasSubstr("the server refused: division by zero")));
+    }
+    EXPECT_EQ(count(), 0);
+    EXPECT_EQ(server_.rows_of_all(std::array{with(divide_, 1)}).at(0).at(0).at(0), "1");
+}
+
+TEST_F(ServerConnections, CommitTheLastStatementsOrNothing) {
+    {
+        ServerTransaction one{server_};
+        server_.rows_of_all(std::array{with(insert_, 1)});
+        EXPECT_THAT([&] { one.commit(std::array{with(insert_, 1)}); },
+                    ThrowsMessage<InputError>(HasSubstr("the server refused: duplicate key")));
+        server_.roll_back();
+    }
+    EXPECT_EQ(count(), 0);
+    ServerTransaction one{server_};
+    server_.rows_of_all(std::array{with(insert_, 1)});
+    one.commit(std::array{with(insert_, 2)});
+    EXPECT_EQ(count(), 2);
+}
+
+TEST_F(ServerConnections, BeginTransactionsWithTheirFirstStatement) {
+    const std::string others = "SELECT count(*) FROM pg_stat_activity WHERE state LIKE 'idle in%'";
+    ServerConnection watch{address_};
+    {
+        ServerTransaction nothing{server_};
+        EXPECT_EQ(watch.number(others), 0);
+        nothing.commit();
+    }
+    EXPECT_TRUE(server_.take_warnings().empty()); // none of a COMMIT without a transaction
+    ServerTransaction one{server_, true};
+    EXPECT_EQ(server_.number("SELECT count(*) FROM public.number"), 0);
+    EXPECT_EQ(watch.number(others), 1);
+    watch.run("INSERT INTO public.number VALUES (1)");
+    EXPECT_EQ(server_.number("SELECT count(*) FROM public.number"), 0); // one moment
+}
+
+TEST_F(ServerConnections, TakeArraysOfAnyText) {
+    const std::vector<std::optional<std::string_view>> texts{
+        "plain", "", "NULL", "a,b", "{c}", R"(quo"ted)", R"(back\slash)", "ä", std::nullopt};
+    const auto rows = server_.rows("SELECT * FROM unnest($1::text[])", {array_of(texts)});
+    ASSERT_EQ(rows.size(), texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        EXPECT_EQ(rows[i][0].has_value(), texts[i].has_value());
+        EXPECT_EQ(rows[i][0].value_or(""), texts[i].value_or(""));
+    }
+    EXPECT_EQ(array_of(std::vector<std::int64_t>{-1, 2}), "{-1,2}");
+    EXPECT_EQ(array_of(std::vector<std::int64_t>{}), "{}");
+}
+
+} // namespace
+} // namespace macadam::testing
