@@ -116,9 +116,11 @@ MapPlan load_change_map(const StoreReader& store, MapRequest request, std::int64
     const auto day = utc_day(since_ms);
     set_words(request.style.words, day);
     request.style.classes = &change_classes();
-    // ColorBrewer 2.0 by Cynthia A. Brewer, "RdBu": diverging, apart for every sight and in
-    // greyscale; the middle is neutral.
-    request.style.own_ramp = {0x67a9cf, 0xf7f7f7, 0xb2182b};
+    // ColorBrewer 2.0 by Cynthia A. Brewer, "RdBu" and for dark pages "RdGy": diverging, apart for
+    // every sight and in greyscale; the middle is neutral, and never the loudest.
+    request.style.own_ramp = request.style.theme == MapStyle::Theme::dark
+                                 ? std::vector<std::uint32_t>{0x92c5de, 0x6b6f76, 0xd6604d}
+                                 : std::vector<std::uint32_t>{0x4393c3, 0xf7f7f7, 0xb2182b};
     const auto compared = [&](const SegmentFilter& filter) {
         auto states = compare_since(store, roads, filter, since_ms);
         if (states.before.empty() && states.since.empty()) {
@@ -129,7 +131,7 @@ MapPlan load_change_map(const StoreReader& store, MapRequest request, std::int64
         return states;
     };
     Verdicts verdicts;
-    request.subtitle = fmt::format("Dated passes before and since {}", day);
+    request.subtitle = fmt::format("{}, before {} against since", period_text(store.seen()), day);
     if (!request.filter.box) {
         const auto states = compared(request.filter);
         const auto& all = states.change.all;

@@ -153,7 +153,9 @@ void run_render(const Arguments& arguments, const Console& console) {
                              .other_sizes = options.output.other_sizes,
                              .events =
                                  options.events && can_show_events(store, options.filter, console),
+                             .scale_denominator = options.output.scale_denominator,
                              .insets = !options.output.bare,
+                             .details = !options.output.bare,
                              .background = options.background};
     auto plan = options.since_ms    ? load_change_map(store, request, *options.since_ms)
                 : options.knowledge ? load_knowledge_map(store, request, *options.knowledge)
@@ -187,6 +189,7 @@ constexpr std::array output_options{
 constexpr std::array map_options{
     picture_size_option,
     dpi_option,
+    scale_option,
     crs_option,
     world_file_option,
     bare_option,

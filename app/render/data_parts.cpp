@@ -14,7 +14,7 @@ namespace {
 constexpr double margin_share = 0.02; // of the driven extent, to keep roads off the frame
 constexpr double min_margin_m = 50;
 constexpr double max_lat_deg = 85;
-constexpr double min_shape = 0.25; // of the shorter side, relative to the longer
+constexpr double min_shape = 0.3; // of the shorter side, relative to the longer
 
 constexpr double max_share = 0.4;    // of the main part's diagonal, relative to that of all
 constexpr double min_apart_m = 5000; // of the whole's diagonal
@@ -24,12 +24,12 @@ double diagonal_m(const GeoBox& box) {
     return distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
 }
 
-std::string place_in(const StoreBackground& background, const GeoBox& box) {
-    const auto places = background.places(box);
+} // namespace
+
+std::string place_in(const StoreReader& store, const GeoBox& box) {
+    const auto places = StoreBackground{store}.places(box);
     return places.empty() ? std::string{} : places.front().name;
 }
-
-} // namespace
 
 /// Returns the box with ground around it: a single road gets some on both sides.
 GeoBox box_with_margin(const GeoBox& box) {
@@ -71,13 +71,13 @@ void set_insets(const StoreReader& store, const SegmentFilter& filter, MapScene&
         diagonal_m(parts[0].box) > max_share * diagonal_m(scene.box)) {
         return;
     }
-    const StoreBackground background{store};
     scene.box = box_with_margin(parts[0].box);
-    scene.place = place_in(background, scene.box);
+    scene.data_box = parts[0].box;
+    scene.place = place_in(store, scene.box);
     for (std::size_t i = 1; i < parts.size(); ++i) {
         auto& inset = scene.insets.emplace_back();
         inset.box = box_with_margin(parts[i].box);
-        inset.name = place_in(background, inset.box);
+        inset.name = place_in(store, inset.box);
         if (inset.name.empty()) { // something that the overview can repeat
             inset.name = char('A' + int(i) - 1);
         }

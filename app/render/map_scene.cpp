@@ -7,7 +7,9 @@
 #include "app/render/box_visit.hpp"
 #include "app/render/data_parts.hpp"
 #include "app/render/line_collector.hpp"
+#include "app/render/map_details.hpp"
 #include "estimator/common/error.hpp"
+#include "render/map/sheet_shape.hpp"
 #include "storage/store/reader/store_background.hpp"
 #include "storage/text/unit_system.hpp"
 #include "storage/text/utc.hpp"
@@ -116,6 +118,7 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
     MapScene scene;
     scene.title = request.title;
     scene.projection = request.projection;
+    scene.scale_denominator = request.scale_denominator;
     scene.attribution = store.settings().attribution;
     if (request.base) {
         scene.base = request.base;
@@ -145,6 +148,7 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
                                          store.file().string())};
         }
         scene.box = box_with_margin(roads.box);
+        scene.data_box = roads.box;
         scene.class_km = request.subtitle ? request.class_km : std::move(roads.class_km);
         scene.subtitle = with_selection(request.subtitle.value_or(fmt::format(
             "{}  ·  {}", period_text(roads.seen), length_text(roads.km, request.style))));
@@ -153,6 +157,7 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
     const auto info = store.info();
     const auto& classes = classes_of(request);
     scene.box = box_with_margin(info.box);
+    scene.data_box = info.box;
     scene.subtitle = info.segments_with_passes == 0 ? subtitle_of_empty_map(store)
                                                     : subtitle_of(info, request.style);
     if (request.style.min_passes <= 1 && &classes == class_table(info.settings.class_table)) {
@@ -317,11 +322,18 @@ MapPlan load_map(const StoreReader& store,
         style.words.unmeasured = "Not selected or measured";
     }
     auto scene = scene_around(store, request);
-    if (request.insets && !request.filter.box) {
+    const bool is_of_all = !request.filter.box && request.scale_denominator <= 0;
+    if (request.insets && is_of_all) {
         set_insets(store, request.filter, scene);
     }
     const auto size = size_for(scene, style, request.size, request.other_sizes);
-    MapPlan plan{std::move(scene), std::move(style), size};
+    MapPlan plan{std::move(scene), style, size};
+    if (const auto room =
+            request.details && is_of_all ? plan.detail_room() : std::optional<DetailRoom>{}) {
+        scene = std::move(plan).scene();
+        set_details(store, request.filter, *room, scene);
+        plan = MapPlan{std::move(scene), style, size};
+    }
     const auto set_background = [&](MapPlan& map, const GeoBox& box, bool with_places) {
         if (request.background) {
             const StoreBackground background{store};

@@ -60,7 +60,9 @@ struct MapRequest {
     PictureSize size{};
     std::vector<PictureSize> other_sizes{}; ///< for size_for
     bool events = false;                    ///< also potholes and other events
+    double scale_denominator = 0;           ///< 0: as large as fits
     bool insets = false;                    ///< for parts of the data far off the others
+    bool details = false;                   ///< at larger scales, on a sheet empty for a third
     bool background = true; ///< water, green and the like, where the database has them
 };
 

@@ -2,10 +2,12 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/row_output.hpp"
+#include "app/render/sheet_size.hpp"
 
 #include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "render/canvas/png.hpp"
+#include "render/map/sheet_shape.hpp"
 #include "render/projection/projection.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/rasters/georeferenced_picture.hpp"
@@ -26,147 +28,8 @@ namespace {
 
 using Kind = PictureOutput::Kind;
 
-constexpr double pdf_px_per_inch = 150; // the page's own unit; its lines and letters are vectors
-constexpr double screen_dpi = 96;       // CSS's pixel
-constexpr double paper_dpi = 300;
-constexpr double min_dpi = 24;
-constexpr double max_dpi = 1200;
 constexpr double mm_per_inch = 25.4;
 constexpr std::string_view web_mercator = "EPSG:3857";
-
-// ISO 216 and ANSI/ASME Y14.1.
-struct Paper {
-    std::string_view name;
-    double width_mm, height_mm;
-};
-constexpr std::array papers{Paper{"A0", 841, 1189},
-                            Paper{"A1", 594, 841},
-                            Paper{"A2", 420, 594},
-                            Paper{"A3", 297, 420},
-                            Paper{"A4", 210, 297},
-                            Paper{"A5", 148, 210},
-                            Paper{"letter", 215.9, 279.4},
-                            Paper{"legal", 215.9, 355.6},
-                            Paper{"tabloid", 279.4, 431.8}};
-
-struct SizeMm {
-    double width, height;
-};
-
-struct SizePx {
-    int width, height;
-};
-
-/// Parses "WxH"; `std::nullopt` if the text is anything else.
-template <typename Number>
-std::optional<std::pair<Number, Number>> two_numbers(std::string_view text) {
-    Number width{};
-    Number height{};
-    const auto* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, width);
-    if (first.ec != std::errc{} || first.ptr == end || *first.ptr != 'x') {
-        return {};
-    }
-    const auto second = std::from_chars(first.ptr + 1, end, height);
-    if (second.ec != std::errc{} || second.ptr != end) {
-        return {};
-    }
-    return std::pair{width, height};
-}
-
-std::optional<SizeMm> paper_size(const std::string& name, bool landscape) {
-    const auto* const paper = std::ranges::find_if(
-        papers, [&](const Paper& each) { return in_lower_case(each.name) == in_lower_case(name); });
-    if (paper == papers.end()) {
-        return {};
-    }
-    return landscape ? SizeMm{paper->height_mm, paper->width_mm}
-                     : SizeMm{paper->width_mm, paper->height_mm};
-}
-
-/// Parses a size on paper: millimetres or the name of a paper.
-std::optional<SizeMm> size_on_paper(const std::string& text, bool landscape) {
-    if (text.ends_with("mm")) {
-        const auto size = two_numbers<double>(std::string_view{text}.substr(0, text.size() - 2));
-        return size ? std::optional<SizeMm>{{size->first, size->second}} : std::nullopt;
-    }
-    return paper_size(text, landscape);
-}
-
-SizePx in_px(const SizeMm& size, double px_per_inch) {
-    // A side beyond any limit stays beyond it, and an int holds it.
-    const auto px = [&](double mm) {
-        return int(std::lround(std::clamp(mm / mm_per_inch * px_per_inch, -1.0, 1e6)));
-    };
-    return {px(size.width), px(size.height)};
-}
-
-void expect_px_in_range(const std::string& text, const SizePx& size, bool on_paper, double dpi) {
-    const auto fits = [](int px) { return px >= min_image_px && px <= max_image_px; };
-    if (!fits(size.width) || !fits(size.height)) {
-        throw UsageError{
-            on_paper ? fmt::format("--size is '{}', which is {} x {} pixels at {:g} dpi, expected "
-                                   "both from {} to {} pixels",
-                                   text,
-                                   size.width,
-                                   size.height,
-                                   dpi,
-                                   min_image_px,
-                                   max_image_px)
-                     : fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
-                                   text,
-                                   min_image_px,
-                                   max_image_px)};
-    }
-}
-
-/// Size of a picture or of a .pdf's sheet.
-struct SheetSize {
-    SizePx px;
-    double px_per_inch;
-};
-
-std::optional<double> parse_dpi(const Arguments& arguments) {
-    const auto dpi = arguments.number("--dpi");
-    if (dpi && !(min_dpi <= *dpi && *dpi <= max_dpi)) {
-        throw UsageError{
-            fmt::format("--dpi is '{:g}', expected {:g} to {:g}", *dpi, min_dpi, max_dpi)};
-    }
-    return dpi;
-}
-
-SheetSize picture_size(const Arguments& arguments) {
-    const auto text = arguments.value("--size").value_or(std::string{default_picture_size});
-    const auto dpi = parse_dpi(arguments);
-    if (const auto mm = size_on_paper(text, arguments.flag("--landscape"))) {
-        const double px_per_inch = dpi.value_or(paper_dpi);
-        const auto px = in_px(*mm, px_per_inch);
-        expect_px_in_range(text, px, true, px_per_inch);
-        return {px, px_per_inch};
-    }
-    const auto px = two_numbers<int>(text);
-    if (!px) {
-        throw UsageError{fmt::format("--size is '{}', expected pixels such as 1600x1200, "
-                                     "millimetres such as 420x594mm, or a paper size such as A2",
-                                     text)};
-    }
-    expect_px_in_range(text, {px->first, px->second}, false, 0);
-    return {{px->first, px->second}, dpi.value_or(screen_dpi)};
-}
-
-SheetSize pdf_size(const Arguments& arguments) {
-    const auto paper = arguments.value("--paper").value_or(std::string{default_paper});
-    const auto text = arguments.value("--size").value_or(paper);
-    const auto mm = size_on_paper(text, arguments.flag("--landscape"));
-    if (!mm) {
-        throw UsageError{fmt::format("--size is '{}', expected for a .pdf millimetres such as "
-                                     "420x594mm, or --paper",
-                                     text)};
-    }
-    const auto px = in_px(*mm, pdf_px_per_inch);
-    expect_px_in_range(text, px, true, pdf_px_per_inch);
-    return {px, pdf_px_per_inch};
-}
 
 /// Returns sizes of a picture or a sheet that are taken where `size` would be empty for a third,
 /// unless one is asked for.
@@ -209,11 +72,14 @@ void expect_fitting(const Arguments& arguments, Kind kind) {
         throw UsageError{"--paper is for a .pdf, expected --size A4 with a picture"};
     }
     if (kind != Kind::pdf && arguments.flag("--landscape") &&
-        !paper_size(arguments.value("--size").value_or(""), false)) {
+        !is_paper(arguments.value("--size").value_or(""))) {
         throw UsageError{"--landscape turns paper, expected --size A4 with a picture"};
     }
     if (const auto crs = arguments.value("--crs"); crs && crs->empty()) {
         throw UsageError{"--crs is '', expected a projection such as EPSG:3006"};
+    }
+    if (arguments.is_given("--scale") && arguments.flag("--bare")) {
+        throw UsageError{"--scale and --bare cannot be combined"};
     }
     if (kind != Kind::png && arguments.flag("--world-file")) {
         throw UsageError{"--world-file is for a .png; a .tif is georeferenced itself"};
@@ -327,9 +193,8 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
                          "--format png or pdf"};
     }
     expect_fitting(arguments, kind);
-    const auto sheet = kind == Kind::pdf ? pdf_size(arguments) : picture_size(arguments);
-    const PictureSize size{
-        .width_px = sheet.px.width, .height_px = sheet.px.height, .px_per_inch = sheet.px_per_inch};
+    const auto size = kind == Kind::pdf ? pdf_size(arguments) : picture_size(arguments);
+    const auto scale = parse_scale(arguments);
     return {.file = *file,
             .kind = kind,
             .size = size,
@@ -337,7 +202,8 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
             .world_file = arguments.flag("--world-file"),
             .bare = arguments.flag("--bare"),
             .to_standard_output = to_standard_output,
-            .crs = arguments.value("--crs").value_or("")};
+            .crs = arguments.value("--crs").value_or(""),
+            .scale_denominator = scale.value_or(0)};
 }
 
 std::vector<std::filesystem::path> files_of(const PictureOutput& output) {
@@ -368,7 +234,7 @@ std::string write_picture(MapPlan plan,
     if (output.bare) {
         plan = bare_plan(plan, output);
     }
-    const auto [width_px, height_px, band_px, px_per_inch] = plan.size();
+    const auto [width_px, height_px, band_px, px_per_inch, is_on_paper] = plan.size();
     if (output.kind == Kind::pdf) {
         const auto pdf = plan.pdf({.width_px = double(width_px),
                                    .height_px = double(height_px),

@@ -23,6 +23,7 @@ struct PictureOutput {
     bool bare = false;               ///< map only, up to the edges
     bool to_standard_output = false; ///< instead of the file
     std::string crs;                 ///< "" = spherical Mercator
+    double scale_denominator = 0;    ///< on paper; 0: as large as fits
 };
 
 /// Parses the output options.
@@ -51,6 +52,12 @@ inline constexpr Option picture_size_option =
 inline constexpr Option dpi_option = in_group(
     "page",
     {"--dpi", "N", "Pixels per inch of a picture on paper.", "96 with pixels, 300 with paper"});
+inline constexpr Option scale_option =
+    in_group("page",
+             {"--scale",
+              "N",
+              "Scale on paper: 25000 or 1:25000, around the middle of --bbox or of the data.",
+              "as large as fits"});
 inline constexpr Option world_file_option = rare(in_group(
     "page",
     {"--world-file", "", "Write .pgw and .png.aux.xml beside a .png, to georeference it."}));

@@ -75,7 +75,8 @@ PixelBox inset(const PixelBox& box, double margin) {
 }
 
 Layout layout_of(const MapScene& scene, const PictureSize& size, TypeSetter& setter) {
-    const auto [width_px, height_px, band_px, px_per_inch] = size;
+    const auto width_px = size.width_px;
+    const auto height_px = size.height_px;
     const double unit = unit_of(size);
     const double margin = std::round(margin_px * unit);
     const double width = width_px - 2 * margin;
@@ -116,6 +117,7 @@ Layout layout_of(const MapScene& scene, const PictureSize& size, TypeSetter& set
     layout.whole_map = {0, std::round(top), double(width_px), bottom};
     layout.map = layout.whole_map;
     layout.scale_bar = scene.scale_bar;
+    layout.is_on_paper = size.is_on_paper;
     layout.edges = !scene.to_the_edge;
     layout.scale_room = {margin, bottom, margin + scale_width, double(height_px)};
     return layout;

@@ -26,7 +26,8 @@ struct Layout {
     std::vector<PositionedText> texts;
     PixelBox scale_room; ///< area of north arrow and scale bar
     bool scale_bar = true;
-    bool edges = true; ///< hairlines around the map
+    bool is_on_paper = false; ///< the scale is stated beside the bar
+    bool edges = true;        ///< hairlines around the map
 };
 
 /// Returns the pixels of 1/96 inch on paper; of a picture that a page scales, unit_of.

@@ -1,15 +1,27 @@
 #include "render/map/map_insets.hpp"
 
 #include "render/map/legend.hpp"
+#include "render/projection/projection.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
 
 namespace macadam {
 namespace {
 
 constexpr double most_share = 0.32; // of the sheet: insets are square, or flatter in a column
 constexpr double min_mark_px = 9;   // side of a part on the locator, at 1000 px
+
+constexpr double min_panel = 0.27;     // of the map's side: else there is no room for details
+constexpr double max_panel = 0.6;      // likewise: else the map would be the smaller part
+constexpr double detail_shape = 1.3;   // width / height, about that of a screen
+constexpr std::size_t max_details = 3; // more would be smaller than they are worth
+constexpr double min_enlarged = 2.5;   // of a detail over its map
+constexpr double min_denominator = 2500;
+constexpr double letter_px = 14; // of a detail's mark, at 1000 px
 
 GeoBox around_both(const GeoBox& a, const GeoBox& b) {
     return including(including(a, {b.south_deg, b.west_deg}), {b.north_deg, b.east_deg});
@@ -26,7 +38,105 @@ void outline(DrawTarget& target, const PixelBox& box, double line_px, std::uint3
     target.fill({{box.right - line_px, box.top, box.right, box.bottom}}, rgb);
 }
 
+/// Returns the legend with all entries that lines can bring.
+Legend fullest_legend(const MapScene& scene, const MapStyle& style) {
+    MapScene all;
+    all.class_km = scene.class_km;
+    all.lines.resize(2); // the first without a measurement
+    all.lines.back().iri_class = 0;
+    all.lines.back().certain = false;
+    if (style.min_passes > 1) {
+        all.lines.push_back(all.lines.back());
+        all.lines.back().few_passes = true;
+    }
+    return legend_of(all, style, classes_of(style));
+}
+
+/// Divides a room into maps side by side or one above the other, along its longer side.
+std::vector<PixelBox> divided(const PixelBox& room, std::size_t count, double air) {
+    std::vector<PixelBox> boxes;
+    const bool is_row = room.width() > room.height();
+    const double length = (is_row ? room.width() : room.height()) + air;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double from = std::round(double(i) * length / double(count));
+        const double to = std::round(double(i + 1) * length / double(count) - air);
+        boxes.push_back(is_row ? PixelBox{room.left + from, room.top, room.left + to, room.bottom}
+                               : PixelBox{room.left, room.top + from, room.right, room.top + to});
+    }
+    return boxes;
+}
+
+/// Returns the side of a panel that the data leaves free; 0 if it is too small.
+double panel_side(double free_px, double side_px) {
+    return free_px < min_panel * side_px ? 0 : std::round(std::min(free_px, max_panel * side_px));
+}
+
 } // namespace
+
+std::optional<DetailLayout> detail_layout(const MapScene& scene,
+                                          const MapStyle& style,
+                                          const Layout& layout,
+                                          std::size_t count,
+                                          TypeSetter& setter) {
+    const double margin = 2 * map_margin_px * layout.unit;
+    const double air = std::round(card_margin_px * layout.unit / 2);
+    const auto data = plane_extent(scene.box, scene.projection.get());
+    const auto& whole = layout.whole_map;
+    const double shape = data.width_rad / std::max(1e-12, data.height_rad);
+    DetailLayout parts{.map = whole, .legend = {}, .boxes = {}};
+    auto panel = whole;
+    const double beside =
+        panel_side(whole.width() - ((whole.height() - margin) * shape + margin), whole.width());
+    const double below =
+        panel_side(whole.height() - ((whole.width() - margin) / shape + margin), whole.height());
+    if (beside > 0) {
+        parts.map.right = panel.left = whole.right - beside;
+    } else if (below > 0) {
+        parts.map.bottom = panel.top = whole.bottom - below;
+    } else {
+        return {};
+    }
+    panel = {std::round(panel.left + air),
+             std::round(panel.top + air),
+             std::round(panel.right - air),
+             std::round(panel.bottom - air)};
+    const auto card = widest_card(fullest_legend(scene, style), panel.width(), layout.unit, setter);
+    parts.legend = panel;
+    parts.legend.bottom = panel.top + card.height_px;
+    const PixelBox room{panel.left, parts.legend.bottom + air, panel.right, panel.bottom};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t n = count > 0 ? count : 1; n <= (count > 0 ? count : max_details); ++n) {
+        auto boxes = divided(room, n, air);
+        const auto& first = boxes.front();
+        if (first.width() < min_image_px || first.height() < min_image_px) {
+            break;
+        }
+        const double away = std::abs(std::log(first.width() / first.height() / detail_shape));
+        if (away < nearest) {
+            nearest = away;
+            parts.boxes = std::move(boxes);
+        }
+    }
+    return parts.boxes.empty() ? std::nullopt : std::optional{std::move(parts)};
+}
+
+std::optional<double> detail_scale(double map_scale_denominator) {
+    const double most = map_scale_denominator / min_enlarged;
+    if (!(most >= min_denominator)) {
+        return {};
+    }
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    for (const double digits : {7.5, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5}) {
+        if (digits * power <= most) {
+            return digits * power;
+        }
+    }
+    return power;
+}
+
+bool has_details(const MapScene& scene) {
+    return !scene.insets.empty() && scene.insets.front().scale_denominator > 0;
+}
 
 std::optional<InsetLayout> inset_layout(const Layout& layout, std::size_t insets) {
     const auto count = double(insets + 1);
@@ -72,6 +182,14 @@ MapScene inset_scene(const MapScene& scene, const MapInset& inset) {
     return part;
 }
 
+MapScene detail_scene(const MapScene& scene, std::size_t detail) {
+    const auto& inset = scene.insets[detail];
+    auto part = inset_scene(scene, inset);
+    part.title = std::string(1, char('A' + int(detail))) + "   " + inset.name;
+    part.scale_denominator = inset.scale_denominator;
+    return part;
+}
+
 MapScene locator_scene(const MapScene& scene) {
     MapScene all;
     all.box = scene.box;
@@ -91,6 +209,41 @@ void draw_inset_panel(DrawTarget& target,
     const double line = std::max(1.0, std::round(layout.unit));
     for (const auto& box : boxes) {
         outline(target, inset(box, -line), line, colours.border);
+    }
+}
+
+std::vector<PixelBox>
+detail_marks(const MapScene& scene, const MapFrame& frame, const Layout& layout) {
+    std::vector<PixelBox> marks;
+    for (const auto& inset : scene.insets) {
+        const auto a = to_pixel(frame, {inset.box.north_deg, inset.box.west_deg});
+        const auto b = to_pixel(frame, {inset.box.south_deg, inset.box.east_deg});
+        marks.push_back({std::round(std::max(a.x, layout.map.left)),
+                         std::round(std::max(a.y, layout.map.top)),
+                         std::round(std::min(b.x, layout.map.right)),
+                         std::round(std::min(b.y, layout.map.bottom))});
+    }
+    return marks;
+}
+
+void draw_detail_marks(DrawTarget& target,
+                       const MapScene& scene,
+                       const MapFrame& frame,
+                       const Layout& layout,
+                       const Palette& colours,
+                       TypeSetter& setter) {
+    const double line = std::max(1.0, std::round(1.5 * layout.unit));
+    const TextLook look{letter_px * layout.unit, true};
+    const double tab = std::round(20 * layout.unit);
+    std::string letter = "A";
+    for (const auto& mark : detail_marks(scene, frame, layout)) {
+        outline(target, mark, line, colours.ink);
+        target.fill({{mark.left, mark.top, mark.left + tab, mark.top + tab}}, colours.ink);
+        target.write(setter.mask(letter, look),
+                     {std::round(mark.left + (tab - setter.width_px(letter, look)) / 2),
+                      std::round(mark.top + tab * 0.76)},
+                     colours.page);
+        ++letter[0];
     }
 }
 

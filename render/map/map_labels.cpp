@@ -1,5 +1,6 @@
 #include "render/map/map_labels.hpp"
 
+#include "render/map/map_insets.hpp"
 #include "render/roads/map_generalisation.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ constexpr double repeat_px = 420; // 11 cm
 constexpr double min_core = 0.9;  // 0.24 mm: a smaller junction is not seen as an area
 constexpr double edge_px = 6;
 constexpr double legend_air_px = 8;
+constexpr double mark_air_px = 3; // around the outline of a detail
 
 constexpr double min_label_px = 10; // minimum legible size
 constexpr double min_halo_px = 1.5;
@@ -124,6 +126,17 @@ std::vector<Label> map_labels(const MapScene& scene,
                                         corner.x + placement.card.width_px,
                                         corner.y + placement.card.height_px},
                                        -legend_air_px * layout.paper_unit));
+    }
+    if (has_details(scene)) {
+        for (const auto& mark : detail_marks(scene, placement.frame, layout)) {
+            const double air = std::round(mark_air_px * layout.paper_unit);
+            for (const double x : {mark.left, mark.right}) {
+                cell.kept_free.push_back({x - air, mark.top, x + air, mark.bottom});
+            }
+            for (const double y : {mark.top, mark.bottom}) {
+                cell.kept_free.push_back({mark.left, y - air, mark.right, y + air});
+            }
+        }
     }
     auto config = label_config(layout.paper_unit);
     if (scene.base) {

@@ -8,13 +8,13 @@
 #include "render/map/base_map_blend.hpp"
 #include "render/map/event_symbols.hpp"
 #include "render/map/legend.hpp"
+#include "render/map/legend_placement.hpp"
 #include "render/map/map_labels.hpp"
 #include "render/map/pdf_ground.hpp"
 #include "render/map/pdf_labels.hpp"
-#include "render/roads/line_joining.hpp"
+#include "render/map/shown_roads.hpp"
 #include "render/roads/map_generalisation.hpp"
 #include "render/roads/road_painter.hpp"
-#include "render/roads/road_polylines.hpp"
 
 #include <fmt/core.h>
 
@@ -40,63 +40,8 @@ const PictureSize& checked(const PictureSize& size) {
     return size;
 }
 
-constexpr double mm_per_unit = 25.4 / 96; // of Layout::paper_unit
-
 double middle_px(const Layout& layout) {
     return (layout.map.top + layout.map.bottom) / 2;
-}
-
-double metres_per_mm(const MapFrame& frame, const Layout& layout) {
-    return metres_per_px(frame, middle_px(layout)) * layout.paper_unit / mm_per_unit;
-}
-
-double scale_denominator_of(const MapFrame& frame, const Layout& layout) {
-    return metres_per_mm(frame, layout) * 1000;
-}
-
-struct Roads {
-    std::vector<Polyline> strands;
-    LineWidths widths;
-};
-
-/// Returns the widths, and whether both directions fit side by side.
-LineWidths widths_of(const std::vector<MapLine>& lines,
-                     const MapStyle& style,
-                     const MapFrame& frame,
-                     const Layout& layout) {
-    const double unit = layout.paper_unit;
-    auto wanted = line_widths(metres_per_px(frame, middle_px(layout)), unit);
-    wanted.core_px *= style.lines.width;
-    wanted.casing_px *= style.lines.casing;
-    const double ink =
-        ink_per_px(joined_polylines(lines, worse_of_both_ways(lines), frame), layout.map, unit);
-    const auto separate = uncrowded(wanted, 2 * ink, unit);
-    if (separate.separate_ways) {
-        return separate;
-    }
-    wanted.separate_ways = false;
-    return uncrowded(wanted, ink, unit);
-}
-
-Roads shown_roads(const MapScene& scene,
-                  const MapStyle& style,
-                  const MapFrame& frame,
-                  const Layout& layout) {
-    const auto& table = classes_of(style);
-    check_classes(scene.lines, table);
-    auto lines = scene.lines;
-    if (scene.projection) {
-        for (auto& line : lines) {
-            line.line = bent(frame, line.line);
-        }
-    }
-    const auto widths = widths_of(lines, style, frame, layout);
-    const auto uses = widths.separate_ways ? all_lines(lines) : worse_of_both_ways(lines);
-    join_short_classes(lines, uses, table, min_run_mm * metres_per_mm(frame, layout));
-    return {widths.separate_ways
-                ? side_by_side(lines, frame, widths, style.left_hand_traffic, joined_polylines)
-                : joined_polylines(lines, uses, frame),
-            widths};
 }
 
 LabelInks label_inks(const Palette& colours) {
@@ -150,8 +95,61 @@ MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
     set_roads(std::move(scene_.lines), std::move(scene_.events));
 }
 
+PictureSize MapPlan::inset_size(const PixelBox& box) const {
+    return {.width_px = int(box.width()),
+            .height_px = int(box.height()),
+            .px_per_inch = size_.px_per_inch,
+            .is_on_paper = size_.is_on_paper};
+}
+
+void MapPlan::plan_details() {
+    const auto parts = detail_layout(scene_, style_, layout_, scene_.insets.size(), setter_);
+    if (!parts) {
+        scene_.insets.clear();
+        return;
+    }
+    layout_.whole_map = parts->map;
+    legend_room_ = parts->legend;
+    inset_boxes_ = parts->boxes;
+    auto style = style_;
+    style.legend = false;
+    for (std::size_t i = 0; i < scene_.insets.size(); ++i) {
+        insets_.emplace_back(detail_scene(scene_, i), style, inset_size(inset_boxes_[i]));
+    }
+}
+
+std::optional<DetailRoom> MapPlan::detail_room() {
+    constexpr double much = 1.0 / 3;
+    if (!scene_.insets.empty() || scene_.to_the_edge || scene_.scale_denominator > 0 ||
+        empty_share() < much) {
+        return {};
+    }
+    const auto parts = detail_layout(scene_, style_, layout_, 0, setter_);
+    if (!parts) {
+        return {};
+    }
+    const auto frame = map_frame(scene_, layout_, inset(parts->map, map_margin_px * layout_.unit));
+    const double map_scale = scale_denominator_of(frame, layout_);
+    const auto scale = detail_scale(map_scale);
+    if (!scale) {
+        return {};
+    }
+    const double m_per_px = metres_per_px(frame, middle_px(layout_)) * *scale / map_scale;
+    auto scene = scene_;
+    scene.insets.emplace_back();
+    const auto sheet = layout_of(detail_scene(scene, 0), inset_size(parts->boxes.front()), setter_);
+    return DetailRoom{.count = parts->boxes.size(),
+                      .scale_denominator = *scale,
+                      .width_m = sheet.map.width() * m_per_px,
+                      .height_m = sheet.map.height() * m_per_px};
+}
+
 void MapPlan::plan_insets() {
     if (scene_.insets.empty()) {
+        return;
+    }
+    if (has_details(scene_)) {
+        plan_details();
         return;
     }
     const auto locator = locator_scene(scene_);
@@ -166,11 +164,7 @@ void MapPlan::plan_insets() {
     auto style = style_;
     style.legend = false;
     const auto add = [&](MapScene scene, const PixelBox& box) {
-        insets_.emplace_back(std::move(scene),
-                             style,
-                             PictureSize{.width_px = int(box.width()),
-                                         .height_px = int(box.height()),
-                                         .px_per_inch = size_.px_per_inch});
+        insets_.emplace_back(std::move(scene), style, inset_size(box));
     };
     for (std::size_t i = 0; i < scene_.insets.size(); ++i) {
         add(inset_scene(scene_, scene_.insets[i]), inset_boxes_[i]);
@@ -181,23 +175,42 @@ void MapPlan::plan_insets() {
 void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events) {
     scene_.lines = std::move(lines);
     scene_.events = std::move(events);
-    const double scale = scale_denominator_of(
-        fitted_frame(scene_.box, layout_.whole_map, scene_.projection.get()), layout_);
+    const double scale =
+        scale_denominator_of(map_frame(scene_, layout_, layout_.whole_map), layout_);
     const auto shown = [&](const MapLine& line) { return is_shown(line, scale); };
     if (std::ranges::any_of(scene_.lines, shown)) { // else all, rather than an empty map
         std::erase_if(scene_.lines, std::not_fn(shown));
     }
-    const auto legend = legend_of(scene_, style_, classes_of(style_));
+    place_legend(legend_of(scene_, style_, classes_of(style_)));
+}
+
+void MapPlan::place_legend(const Legend& legend) {
     layout_.map = layout_.whole_map;
-    const auto band =
+    placement_ = placement_of(scene_, legend_room_ ? Legend{} : legend, layout_, setter_);
+    if (legend_room_) {
+        for (const auto& form : forms_of(legend)) {
+            placement_.card = widest_card(form, legend_room_->width(), layout_.unit, setter_);
+            if (placement_.card.height_px <= legend_room_->height()) {
+                break;
+            }
+        }
+        placement_.card.framed = false;
+        placement_.corner = {legend_room_->left, legend_room_->top};
+        return;
+    }
+    if (legend.entries.empty() || !placement_.makes_map_smaller) {
+        return;
+    }
+    auto band =
         background_.tiles.empty() ? legend_band(scene_, legend, layout_, setter_) : std::nullopt;
+    if (!band && placement_.hides_roads) {
+        band = legend_strip(legend, layout_, setter_);
+    }
     if (band) {
         layout_.map = band->map;
         placement_ = placement_of(scene_, {}, layout_, setter_);
         placement_.card = band->card;
         placement_.corner = band->corner;
-    } else {
-        placement_ = placement_of(scene_, legend, layout_, setter_);
     }
 }
 
@@ -252,6 +265,10 @@ void MapPlan::draw_sheet(DrawTarget& target) {
     draw_map_surround(target, layout_, placement_, style_, setter_);
     if (!insets_.empty()) {
         draw_inset_panel(target, layout_, inset_boxes_, colours);
+    }
+    if (has_details(scene_)) {
+        draw_detail_marks(target, scene_, placement_.frame, layout_, colours, setter_);
+    } else if (!insets_.empty()) {
         draw_locator(target,
                      scene_,
                      inset_boxes_.back(),
@@ -340,44 +357,9 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
     return pdf_file(sheet, [&](PdfPage& page) { draw_on(page); });
 }
 
-std::vector<PictureSize> other_shapes(const PictureSize& size) {
-    const double area_px = double(size.width_px) * size.height_px;
-    std::vector<PictureSize> sizes;
-    for (const double shape : {1.2, 1.5, 1.0, 1 / 1.5, 2.0, 1 / 2.0, 2.4, 1 / 2.4, 3.0, 1 / 3.0}) {
-        auto& other = sizes.emplace_back(size);
-        other.width_px = int(std::lround(std::sqrt(area_px * shape)));
-        other.height_px = int(std::lround(std::sqrt(area_px / shape)));
-    }
-    return sizes;
-}
-
-PictureSize size_for(const MapScene& scene,
-                     const MapStyle& style,
-                     const PictureSize& usual,
-                     std::span<const PictureSize> others) {
-    constexpr double much = 1.0 / 3;
-    if (others.empty()) {
-        return usual;
-    }
-    const auto empty = [&](const PictureSize& size) {
-        return MapPlan{scene, style, size}.empty_share();
-    };
-    auto best = usual;
-    double least = empty(usual);
-    for (const auto& other : others) {
-        if (least < much) {
-            break;
-        }
-        if (const double share = empty(other); share < least) {
-            least = share;
-            best = other;
-        }
-    }
-    return best;
-}
-
 Image image_of(MapPlan& plan) {
-    const auto [width_px, height_px, band_px, px_per_inch] = plan.size();
+    const auto width_px = plan.size().width_px;
+    const auto height_px = plan.size().height_px;
     Image image{width_px, height_px, {}};
     image.rgb.reserve(std::size_t(width_px) * std::size_t(height_px) * 3);
     plan.draw([&](std::span<const std::uint8_t> rgb) {

@@ -5,11 +5,13 @@
 #include "mapping/background/background_pieces.hpp"
 #include "render/canvas/pdf_page.hpp"
 #include "render/map/layout.hpp"
+#include "render/map/legend_placement.hpp"
 #include "render/map/map_insets.hpp"
 #include "render/map/map_surround.hpp"
 #include "render/scene/scene.hpp"
 #include "render/text/text_shaping.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -54,14 +56,15 @@ public:
     void set_background(MapBackground background);
 
     /// Returns the maps of the scene's insets, which need roads and background of their own.
-    std::span<MapPlan> insets() {
-        return insets_.empty() ? std::span<MapPlan>{}
-                               : std::span{insets_}.first(insets_.size() - 1);
-    }
+    std::span<MapPlan> insets() { return std::span{insets_}.first(scene_.insets.size()); }
 
     /// Returns the map around all parts of the data, which needs a background alone; null without
-    /// insets.
-    MapPlan* locator() { return insets_.empty() ? nullptr : &insets_.back(); }
+    /// far-off parts.
+    MapPlan* locator() { return insets_.size() > scene_.insets.size() ? &insets_.back() : nullptr; }
+
+    /// Returns the details that would fill a sheet of which a third or more is empty.
+    /// `std::nullopt` if it is not, or if the data leaves too little room for them.
+    std::optional<DetailRoom> detail_room();
 
     /// Returns the share of the sheet without text, legend or data, 0 to 1.
     double empty_share() const { return macadam::empty_share(scene_, layout_, placement_); }
@@ -96,6 +99,9 @@ public:
 
 private:
     void plan_insets();
+    void plan_details();
+    PictureSize inset_size(const PixelBox& box) const;
+    void place_legend(const Legend& legend);
     void draw_on(PdfPage& page);
     void draw_sheet(DrawTarget& target);
 
@@ -106,20 +112,10 @@ private:
     Layout layout_;
     MapBackground background_;
     Placement placement_;
-    std::vector<MapPlan> insets_{};       ///< the last is the locator
-    std::vector<PixelBox> inset_boxes_{}; ///< on the sheet
+    std::vector<MapPlan> insets_{};         ///< the last is the locator
+    std::vector<PixelBox> inset_boxes_{};   ///< on the sheet
+    std::optional<PixelBox> legend_room_{}; ///< beside or below the map, above details
 };
-
-/// Returns sizes of about the same area, up to three times as wide as high and the reverse, the
-/// usual shapes first.
-std::vector<PictureSize> other_shapes(const PictureSize& size);
-
-/// Returns the size for a scene without lines: the first, beginning with `usual`, that leaves less
-/// than a third of the sheet empty, or else that which leaves the least empty.
-PictureSize size_for(const MapScene& scene,
-                     const MapStyle& style,
-                     const PictureSize& usual,
-                     std::span<const PictureSize> others);
 
 /// Draws a plan as one picture.
 Image image_of(MapPlan& plan);

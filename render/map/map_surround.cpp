@@ -1,120 +1,18 @@
 #include "render/map/map_surround.hpp"
 
-#include "mapping/geometry/line_clipping.hpp"
-#include "render/map/legend.hpp"
 #include "render/scene/scale_bar.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string>
 
 namespace macadam {
 namespace {
 
 // Sizes at 1000 px.
 constexpr double label_px = 14;
-
-constexpr double min_scale = 0.9; // of a small map, relative to its scale without a legend
-
-bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& b) {
-    return !clipped_line(a, b, {box.left, box.top, box.right, box.bottom}).is_empty();
-}
-
-using Corners = std::array<PixelPoint, 4>;
-
-/// Returns the possible corners of the card, the best first.
-Corners corners_of(const PixelBox& map, const LegendCard& card) {
-    const double margin = std::round(card_margin_px * card.unit);
-    const double left = map.left + margin;
-    const double right = map.right - margin - card.width_px;
-    const double top = map.top + margin;
-    const double bottom = map.bottom - margin - card.height_px;
-    return {{{right, bottom}, {left, bottom}, {right, top}, {left, top}}};
-}
-
-PixelBox ground_of(const LegendCard& card, const PixelPoint& corner) {
-    const double air = 10 * card.unit;
-    return inset({corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px}, -air);
-}
-
-using Hidden = std::array<bool, 4>;
-
-/// Tells which corners would hide roads.
-Hidden hides_roads(const MapScene& scene,
-                   const MapFrame& frame,
-                   const LegendCard& card,
-                   const Corners& corners) {
-    std::array<PixelBox, 4> grounds;
-    std::ranges::transform(corners, grounds.begin(), [&](const PixelPoint& corner) {
-        return ground_of(card, corner);
-    });
-    Hidden hidden{};
-    for (const auto& line : scene.lines) {
-        for (std::size_t i = 0; i + 1 < line.line.size(); ++i) {
-            const auto a = to_pixel(frame, line.line[i]);
-            const auto b = to_pixel(frame, line.line[i + 1]);
-            for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-                hidden[corner] = hidden[corner] || passes_through(grounds[corner], a, b);
-            }
-        }
-        if (std::ranges::find(hidden, false) == hidden.end()) {
-            break;
-        }
-    }
-    return hidden;
-}
-
-Placement beside_or_below(const MapScene& scene,
-                          const Legend& legend,
-                          const Layout& layout,
-                          TypeSetter& setter) {
-    const double margin = map_margin_px * layout.unit;
-    const double card_margin = card_margin_px * layout.unit;
-    const auto column = legend_card(legend, 1, layout.unit, setter);
-    const auto row = widest_card(legend, layout.map.width() - 2 * card_margin, layout.unit, setter);
-    auto left_room = inset(layout.map, margin);
-    left_room.right -= std::min(column.width_px + card_margin, left_room.width() * 0.6);
-    auto upper_room = inset(layout.map, margin);
-    upper_room.bottom -= std::min(row.height_px + card_margin, upper_room.height() * 0.6);
-
-    const auto left_frame = fitted_frame(scene.box, left_room, scene.projection.get());
-    const auto upper_frame = fitted_frame(scene.box, upper_room, scene.projection.get());
-    if (left_frame.px_per_rad >= upper_frame.px_per_rad) {
-        return {left_frame, column, corners_of(layout.map, column)[0]};
-    }
-    return {upper_frame, row, corners_of(layout.map, row)[1]};
-}
-
-/// Places the legend in a corner without roads, or where the data makes room for it.
-Placement placement_beside_roads(const MapScene& scene,
-                                 const Legend& legend,
-                                 const MapFrame& frame,
-                                 const Layout& layout,
-                                 TypeSetter& setter) {
-    double height_px = layout.map.height();
-    for (int columns = 1; columns <= int(legend.entries.size()); ++columns) {
-        const auto card = legend_card(legend, columns, layout.unit, setter);
-        const double margin = 2 * card_margin_px * layout.unit;
-        if (card.width_px > layout.map.width() - margin || card.height_px >= height_px) {
-            continue;
-        }
-        height_px = card.height_px;
-        const auto corners = corners_of(layout.map, card);
-        const auto hidden = hides_roads(scene, frame, card, corners);
-        const auto* const empty = std::ranges::find(hidden, false);
-        if (empty != hidden.end()) {
-            return {frame, card, corners[std::size_t(empty - hidden.begin())]};
-        }
-    }
-    return beside_or_below(scene, legend, layout, setter);
-}
-
-/// Returns true if the sheet is so small that its letters are relatively larger than on other
-/// sheets.
-bool has_large_letters(const Layout& layout) {
-    const double side_px = std::min(layout.map.width(), layout.scale_room.bottom);
-    return layout.unit * 1000 > side_px * 1.001;
-}
 
 struct NorthArrow {
     PixelPoint foot;
@@ -181,6 +79,16 @@ void draw_scale(DrawTarget& canvas,
                  colours.ink);
 }
 
+/// Returns the scale as it is stated on paper, such as "1:25,000".
+std::string scale_text(const MapFrame& frame, const Layout& layout) {
+    const auto number = std::llround(scale_denominator_of(frame, layout));
+    return number < 1000 ? fmt::format("1:{}", number)
+           : number < 1'000'000
+               ? fmt::format("1:{},{:03}", number / 1000, number % 1000)
+               : fmt::format(
+                     "1:{},{:03},{:03}", number / 1'000'000, number / 1000 % 1000, number % 1000);
+}
+
 void draw_footer(DrawTarget& canvas,
                  TypeSetter& setter,
                  const Layout& layout,
@@ -200,8 +108,15 @@ void draw_footer(DrawTarget& canvas,
 
     const double left = std::round(room.left + 46 * unit);
     const double middle = (layout.map.top + layout.map.bottom) / 2;
-    const auto bar = scale_bar(metres_per_px(frame, middle), room.right - left, style.in_per_mi);
+    const TextLook look{label_px * unit};
+    const double gap = 14 * unit;
+    const auto ratio = layout.is_on_paper ? scale_text(frame, layout) : std::string{};
+    const double beside = ratio.empty() ? 0 : setter.width_px(ratio, look) + gap;
+    const auto bar =
+        scale_bar(metres_per_px(frame, middle), room.right - left - beside, style.in_per_mi);
     draw_scale(canvas, setter, bar, {left, base}, unit, colours);
+    canvas.write(
+        setter.mask(ratio, look), {std::round(left + bar.width_px + gap), base}, colours.ink);
 }
 
 void draw_edges(DrawTarget& canvas, const Layout& layout, const Palette& colours) {
@@ -222,56 +137,6 @@ void draw_edges(DrawTarget& canvas, const Layout& layout, const Palette& colours
 }
 
 } // namespace
-
-Placement placement_of(const MapScene& scene,
-                       const Legend& legend,
-                       const Layout& layout,
-                       TypeSetter& setter) {
-    const double margin = scene.to_the_edge ? 0 : map_margin_px * layout.unit;
-    const auto frame = fitted_frame(scene.box, inset(layout.map, margin), scene.projection.get());
-    if (legend.entries.empty()) {
-        return {frame, {}, {}};
-    }
-    auto best = placement_beside_roads(scene, legend, frame, layout, setter);
-    if (!has_large_letters(layout)) {
-        return best;
-    }
-    for (const auto& form : forms_of(legend)) {
-        if (best.frame.px_per_rad >= min_scale * frame.px_per_rad) {
-            break;
-        }
-        const auto placement = placement_beside_roads(scene, form, frame, layout, setter);
-        if (placement.frame.px_per_rad > best.frame.px_per_rad) {
-            best = placement;
-        }
-    }
-    return best;
-}
-
-double empty_share(const MapScene& scene, const Layout& layout, const Placement& placement) {
-    const double sheet = layout.width_px * layout.scale_room.bottom;
-    const double around = sheet - layout.whole_map.width() * layout.whole_map.height();
-    const auto overlap_of = [](const PixelBox& a, const PixelBox& b) {
-        return std::max(0.0, std::min(a.right, b.right) - std::max(a.left, b.left)) *
-               std::max(0.0, std::min(a.bottom, b.bottom) - std::max(a.top, b.top));
-    };
-    const auto extent = plane_extent(scene.box, scene.projection.get());
-    const double half_width = extent.width_rad * placement.frame.px_per_rad / 2;
-    const double half_height = extent.height_rad * placement.frame.px_per_rad / 2;
-    const auto& centre = placement.frame.centre;
-    const PixelBox data{centre.x - half_width,
-                        centre.y - half_height,
-                        centre.x + half_width,
-                        centre.y + half_height};
-    const auto& corner = placement.corner;
-    const PixelBox card{corner.x,
-                        corner.y,
-                        corner.x + placement.card.width_px,
-                        corner.y + placement.card.height_px};
-    const double filled =
-        overlap_of(data, layout.map) + overlap_of(card, layout.whole_map) - overlap_of(card, data);
-    return 1 - (around + filled) / sheet;
-}
 
 void draw_map_surround(DrawTarget& canvas,
                        const Layout& layout,

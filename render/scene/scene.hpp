@@ -52,10 +52,12 @@ struct MapPlace {
     bool is_marked = false; ///< by something at its position, beside which its name stands
 };
 
-/// Part of the data far off the others, on a map of its own beside the main one.
+/// Part of the data on a map of its own beside the main one: far off the others, or a detail of
+/// the main map at a larger scale.
 struct MapInset {
     GeoBox box;
-    std::string name; ///< of a place in it, or ""
+    std::string name;             ///< of a place in it, or ""
+    double scale_denominator = 0; ///< of a detail; 0: a far-off part, which fills its map
 };
 
 struct MapStyle {
@@ -80,10 +82,11 @@ struct MapScene {
     /// Box that the picture must contain; extended to the picture's shape. If its east lies beyond
     /// 180 degrees, it continues over the antimeridian, as do the longitudes of the lines.
     GeoBox box;
-    std::vector<MapLine> lines;
+    GeoBox data_box{}; ///< of the data alone, if the box has ground beside it; empty: the box
+    std::vector<MapLine> lines{};
     std::vector<MapEvent> events{}; ///< drawn over the roads, with entries in the legend
     std::vector<MapPlace> places{}; ///< named on the map, as far as there is room
-    std::vector<MapInset> insets{}; ///< far-off parts of the data, at scales of their own
+    std::vector<MapInset> insets{}; ///< all far-off parts of the data, or all details
     std::string place{};            ///< name of a place in the box, for the locator of insets
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
@@ -91,6 +94,7 @@ struct MapScene {
     std::vector<double> class_km; ///< length of each class, for the legend; empty: omitted
     bool scale_bar = true;        ///< with north arrow; false: the surrounding text gives the scale
     bool to_the_edge = false;     ///< the box fills the map; else it has a margin
+    double scale_denominator = 0; ///< on paper, 25000 for 1:25,000; 0: as large as fits
     std::shared_ptr<const PlaneProjection> projection{}; ///< null: spherical Mercator
     std::shared_ptr<const BaseMap> base{}; ///< under the roads; null: plain ground colour
 };
@@ -112,6 +116,8 @@ struct PictureSize {
     /// On paper: lines and letters have the widths and heights that their map scale asks for. 0: a
     /// picture for a page that scales it: the shorter side counts as 265 mm.
     double px_per_inch = 0;
+
+    bool is_on_paper = false; ///< its size is that of a sheet: the map states its scale
 };
 
 /// Receiver of rows of a picture as they are drawn, from the top, in groups of whole rows:

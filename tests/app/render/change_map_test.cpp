@@ -71,7 +71,7 @@ TEST(ChangeMap, ColoursSegmentsByTheVerdictOnTheirChange) {
     EXPECT_EQ(counts[2], 3);
     EXPECT_EQ(counts[3], 1); // driven before alone
     EXPECT_GT(counts[4], 10);
-    EXPECT_THAT(plan.scene().subtitle, HasSubstr("Dated passes before and since 2026-01-01"));
+    EXPECT_THAT(plan.scene().subtitle, HasSubstr("before 2026-01-01 against since"));
 }
 
 TEST(ChangeMap, CountsPassesOfBothSidesForTheLeastNumber) {
