@@ -1,14 +1,16 @@
 #include "app/render/change_map.hpp"
 
+#include "app/render/line_collector.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -16,24 +18,21 @@
 namespace macadam {
 namespace {
 
-/// Verdict on each segment that was measured; `std::nullopt` where it is not comparable.
-using Verdicts = std::map<SegmentKey, std::optional<Verdict>>;
-
 /// Segments to compare; `std::nullopt`: all.
 using Selected = std::optional<std::set<SegmentKey>>;
 
-std::vector<SegmentRecord> states_in(const StoreReader& store,
-                                     SegmentFilter filter,
-                                     const Period& period,
-                                     const Selected& selected) {
+/// Visits the selected segments with passes in a period.
+void visit_period(const StoreReader& store,
+                  SegmentFilter filter,
+                  const Period& period,
+                  const Selected& selected,
+                  const std::function<void(const SegmentRecord&)>& take) {
     filter.period = period;
-    std::vector<SegmentRecord> records;
     store.visit(filter, [&](const SegmentRecord& record) {
         if (!selected || selected->contains(record.segment.key)) {
-            records.push_back(record);
+            take(record);
         }
     });
-    return records;
 }
 
 /// Removes the minimum numbers of passes and cars from a filter. \returns the segments that have
@@ -49,27 +48,48 @@ Selected take_out_minima(const StoreReader& store, SegmentFilter& filter) {
     return keys;
 }
 
-Verdicts verdicts_of(const ComparedStates& states) {
-    Verdicts verdicts;
-    for (const auto* side : {&states.before, &states.since}) {
-        for (const auto& record : *side) {
-            verdicts.emplace(record.segment.key, std::nullopt);
-        }
-    }
-    for (const auto& compared : states.change.segments) {
-        verdicts[states.since[compared.after].segment.key] = compared.verdict;
-    }
-    return verdicts;
-}
+/// Segments with passes on both sides of a day, in key order, and what has them on one only.
+struct BothSides {
+    MeasuredSegments before, since;
+    AloneLengths alone;
+    std::vector<SegmentVerdict> verdicts; ///< on the latter
+};
 
-std::vector<MapLine>
-change_lines(const StoreReader& store, const GeoBox& ground, const Verdicts& verdicts) {
-    return map_lines(store, ground, [&](const SegmentRecord& record, MapLine& line) {
-        if (const auto found = verdicts.find(record.segment.key); found != verdicts.end()) {
-            line.iri_class = static_cast<int>(found->second.value_or(Verdict::no_change_shown));
-            line.few_passes = !found->second;
-        }
+/// Reads one side after the other, and of each the keys first: a network of a million segments
+/// that were all driven once would not fit.
+BothSides both_sides(const StoreReader& store,
+                     const SegmentFilter& filter,
+                     std::int64_t since_ms,
+                     const Selected& selected) {
+    const auto whole = filter.period.value_or(Period{});
+    const Period before{whole.from_ms, since_ms};
+    const Period since{since_ms, whole.until_ms};
+    BothSides both;
+    const auto take_into = [&](MeasuredSegments& side, auto& alone_m, const auto& is_common) {
+        return [&, is_common](const SegmentRecord& record) {
+            if (is_common(record.segment.key)) {
+                side.add(record);
+            } else {
+                alone_m[record.highway] += record.segment.to_m - record.segment.from_m;
+                both.verdicts.push_back({record.segment.key, std::nullopt});
+            }
+        };
+    };
+    std::vector<SegmentKey> keys;
+    visit_period(store, filter, before, selected, [&](const SegmentRecord& record) {
+        keys.push_back(record.segment.key);
     });
+    const auto is_before = [&](const SegmentKey& key) {
+        return std::ranges::binary_search(keys, key);
+    };
+    visit_period(
+        store, filter, since, selected, take_into(both.since, both.alone.since_m, is_before));
+    const auto is_since = [&](const SegmentKey& key) {
+        return std::ranges::binary_search(both.since.segments, key, {}, &MeasuredSegment::key);
+    };
+    visit_period(
+        store, filter, before, selected, take_into(both.before, both.alone.before_m, is_since));
+    return both;
 }
 
 /// Sets the texts of the legend, as far as the user has not.
@@ -89,17 +109,45 @@ void set_words(LegendWords& words, const std::string& day) {
 
 } // namespace
 
-ComparedStates compare_since(const StoreReader& store,
-                             const RoadNetwork& roads,
-                             SegmentFilter filter,
-                             std::int64_t since_ms) {
-    const auto whole = filter.period.value_or(Period{});
+ComparedStates
+compare_since(const StoreReader& store, SegmentFilter filter, std::int64_t since_ms) {
     const auto selected = take_out_minima(store, filter);
-    ComparedStates states{.before = states_in(store, filter, {whole.from_ms, since_ms}, selected),
-                          .since = states_in(store, filter, {since_ms, whole.until_ms}, selected),
-                          .change = {}};
-    states.change = change_since(roads, states.before, states.since, {});
+    auto [before, since, alone, verdicts] = both_sides(store, filter, since_ms, selected);
+    ComparedStates states;
+    states.change =
+        change_since(since.segments.empty() ? RoadNetwork{} : load_or_build_network(store),
+                     before.segments,
+                     since.segments,
+                     {},
+                     alone);
+    states.keys.reserve(states.change.segments.size());
+    for (const auto& segment : states.change.segments) {
+        const auto& key = since.segments[segment.after].key;
+        states.keys.push_back(key);
+        verdicts.push_back({key, segment.verdict});
+    }
+    std::ranges::sort(verdicts, {}, &SegmentVerdict::key);
+    states.verdicts = std::move(verdicts);
     return states;
+}
+
+std::vector<MapLine> change_lines(const StoreReader& store,
+                                  const GeoBox& box,
+                                  std::span<const SegmentVerdict> verdicts,
+                                  double scale_denominator) {
+    return map_lines(
+        store,
+        box,
+        [&](const SegmentRecord& record, MapLine& line) {
+            const auto found =
+                std::ranges::lower_bound(verdicts, record.segment.key, {}, &SegmentVerdict::key);
+            if (found != verdicts.end() && found->key == record.segment.key) {
+                line.iri_class =
+                    static_cast<int>(found->verdict.value_or(Verdict::no_change_shown));
+                line.few_passes = !found->verdict;
+            }
+        },
+        joining_at(scale_denominator, store.settings().segment_length_m, change_classes()));
 }
 
 const ClassTable& change_classes() {
@@ -111,41 +159,43 @@ const ClassTable& change_classes() {
     return table;
 }
 
+std::vector<std::uint32_t> change_colours(bool on_dark) {
+    // ColorBrewer 2.0 by Cynthia A. Brewer, "RdBu", on dark pages with a grey middle: diverging,
+    // apart for every sight and in greyscale; the middle is never the loudest.
+    return on_dark ? std::vector<std::uint32_t>{0x92c5de, 0x565a61, 0xd6604d}
+                   : std::vector<std::uint32_t>{0x4393c3, 0xf7f7f7, 0xb2182b};
+}
+
 MapPlan load_change_map(const StoreReader& store, MapRequest request, std::int64_t since_ms) {
-    const auto roads = load_or_build_network(store);
     const auto day = utc_day(since_ms);
     set_words(request.style.words, day);
     request.style.classes = &change_classes();
-    // ColorBrewer 2.0 by Cynthia A. Brewer, "RdBu" and for dark pages "RdGy": diverging, apart for
-    // every sight and in greyscale; the middle is neutral, and never the loudest.
-    request.style.own_ramp = request.style.theme == MapStyle::Theme::dark
-                                 ? std::vector<std::uint32_t>{0x92c5de, 0x6b6f76, 0xd6604d}
-                                 : std::vector<std::uint32_t>{0x4393c3, 0xf7f7f7, 0xb2182b};
+    request.style.own_ramp = change_colours(request.style.theme == MapStyle::Theme::dark);
     const auto compared = [&](const SegmentFilter& filter) {
-        auto states = compare_since(store, roads, filter, since_ms);
-        if (states.before.empty() && states.since.empty()) {
+        auto states = compare_since(store, filter, since_ms);
+        if (states.verdicts.empty()) {
             throw InputError{fmt::format("{}: the selection contains no dated measurement, "
                                          "expected at least one",
                                          store.file().string())};
         }
         return states;
     };
-    Verdicts verdicts;
+    std::vector<SegmentVerdict> verdicts;
     request.subtitle = fmt::format("{}, before {} against since", period_text(store.seen()), day);
     if (!request.filter.box) {
-        const auto states = compared(request.filter);
+        auto states = compared(request.filter);
         const auto& all = states.change.all;
-        verdicts = verdicts_of(states);
+        verdicts = std::move(states.verdicts);
         request.class_km = {
             all.improved_m / 1000, all.unchanged_m / 1000, all.deteriorated_m / 1000};
     }
-    return load_map(store, request, [&](const GeoBox& ground) {
+    return load_map(store, request, [&](const GeoBox& ground, double scale) {
         if (request.filter.box) {
             auto filter = request.filter;
             filter.box = ground;
-            verdicts = verdicts_of(compared(filter));
+            verdicts = compared(filter).verdicts;
         }
-        return change_lines(store, ground, verdicts);
+        return change_lines(store, ground, verdicts, scale);
     });
 }
 

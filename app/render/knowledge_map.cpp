@@ -152,17 +152,21 @@ MapPlan load_knowledge_map(const StoreReader& store, MapRequest request, Knowled
             }
         });
     }
-    return load_map(store, request, [&](const GeoBox& ground) {
+    return load_map(store, request, [&](const GeoBox& ground, double scale) {
         if (request.filter.box) {
             selected.clear();
             visit_box(store, request.filter, ground, take);
         }
-        return map_lines(store, ground, [&](const SegmentRecord& record, MapLine& line) {
-            if (const auto found = selected.find(record.segment.key); found != selected.end()) {
-                line.few_passes = found->second == table.classes.size();
-                line.iri_class = line.few_passes ? 0 : int(found->second);
-            }
-        });
+        return map_lines(
+            store,
+            ground,
+            [&](const SegmentRecord& record, MapLine& line) {
+                if (const auto found = selected.find(record.segment.key); found != selected.end()) {
+                    line.few_passes = found->second == table.classes.size();
+                    line.iri_class = line.few_passes ? 0 : int(found->second);
+                }
+            },
+            joining_at(scale, store.settings().segment_length_m, table));
     });
 }
 

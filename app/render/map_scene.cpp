@@ -312,9 +312,7 @@ std::vector<MapLine> map_lines(const StoreReader& store,
                      joining_at(scale_denominator, store.settings().segment_length_m, classes));
 }
 
-MapPlan load_map(const StoreReader& store,
-                 const MapRequest& request,
-                 const std::function<std::vector<MapLine>(const GeoBox&)>& lines) {
+MapPlan load_map(const StoreReader& store, const MapRequest& request, const LoadLines& lines) {
     auto style = request.style;
     auto filter = request.filter;
     filter.box.reset();
@@ -346,7 +344,7 @@ MapPlan load_map(const StoreReader& store,
         const auto box = map.ground();
         const auto& level = map.background_level();
         set_background(map, box, true);
-        map.set_roads(lines ? lines(box)
+        map.set_roads(lines ? lines(box, map.scale())
                             : map_lines(store,
                                         box,
                                         classes_of(request),

@@ -66,13 +66,14 @@ struct MapRequest {
     bool background = true; ///< water, green and the like, where the database has them
 };
 
+/// Returns the roads in a box, joined for a scale's denominator.
+using LoadLines = std::function<std::vector<MapLine>(const GeoBox& box, double scale_denominator)>;
+
 /// Plans a picture and loads its roads: the segments on it with their classes, the roads without a
 /// measurement, and the text around them.
 ///
-/// \param lines         returns the roads in a box; empty: map_lines() of the request
+/// \param lines         of the map; empty: map_lines() of the request
 /// \throws InputError  if the database has no segment in the box.
-MapPlan load_map(const StoreReader& store,
-                 const MapRequest& request,
-                 const std::function<std::vector<MapLine>(const GeoBox&)>& lines = {});
+MapPlan load_map(const StoreReader& store, const MapRequest& request, const LoadLines& lines = {});
 
 } // namespace macadam

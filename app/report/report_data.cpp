@@ -18,7 +18,6 @@
 #include <limits>
 #include <map>
 #include <ranges>
-#include <span>
 #include <utility>
 
 namespace macadam {
@@ -139,47 +138,46 @@ std::optional<ReportPublication> publication_of(const StoreInfo& info) {
 
 constexpr int middle_rank = 3; // line width for town streets and main roads
 
-/// Draws the compared segments over a scene with muted roads.
-void colour_change(MapScene& scene,
-                   std::span<const ComparedSegment> segments,
-                   std::span<const SegmentRecord> since) {
+/// Draws compared segments over a scene with muted roads.
+void colour_change(const StoreReader& store,
+                   const std::vector<SegmentVerdict>& segments,
+                   MapScene& scene) {
+    SegmentFilter compared;
+    compared.with_state_only = false;
+    compared.ranges.emplace();
     std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
-    for (const auto& segment : segments) {
-        const auto& key = since[segment.after].segment.key;
+    for (const auto& [key, verdict] : segments) {
+        compared.ranges->push_back({key.way_id, key.forward, key.index, key.index + 1});
         ++directions[{key.way_id, key.index}];
     }
-    for (auto& line : scene.lines) {
-        line.iri_class = -1;
-        line.few_passes = false;
-    }
-    for (const auto& segment : segments) {
-        const auto& of = since[segment.after].segment;
+    auto next = segments.begin();
+    store.visit(compared, [&](const SegmentRecord& record) {
+        const auto& [key, verdict] = *next++;
         MapLine line;
-        line.line = of.line;
-        line.iri_class = static_cast<int>(segment.verdict);
-        line.forward = of.key.forward;
-        line.both_ways = directions.at({of.key.way_id, of.key.index}) == 2;
+        line.line = record.segment.line;
+        line.iri_class = static_cast<int>(verdict.value_or(Verdict::no_change_shown));
+        line.forward = key.forward;
+        line.both_ways = directions.at({key.way_id, key.index}) == 2;
         line.rank = middle_rank;
         scene.lines.push_back(std::move(line));
-    }
+    });
 }
 
 std::vector<ReportChangedStretch> drawn(const StoreReader& store,
                                         const std::vector<ChangedStretch>& stretches,
-                                        const ChangeSince& change,
-                                        std::span<const SegmentRecord> since,
+                                        const ComparedStates& compared,
                                         ReportPictures& pictures) {
     std::vector<ReportChangedStretch> listed;
     for (const auto& stretch : stretches | std::views::take(max_changed)) {
-        std::vector<ComparedSegment> segments;
+        std::vector<SegmentVerdict> segments;
         for (const auto i : stretch.stretch.records) {
-            segments.push_back(change.segments[i]);
+            segments.push_back({compared.keys[i], compared.change.segments[i].verdict});
         }
         auto scene = quiet_scene(store, stretch.stretch, change_classes());
-        colour_change(scene, segments, since);
+        colour_change(store, segments, scene);
         listed.push_back({stretch,
                           std::string{heading_of(stretch.stretch)},
-                          pictures.stretch(std::move(scene), &change_classes())});
+                          pictures.stretch(std::move(scene), true)});
     }
     return listed;
 }
@@ -190,26 +188,38 @@ std::size_t pictures_of(const ChangeSince& change) {
 }
 
 ReportChange change_of(const StoreReader& store,
-                       const ComparedStates& compared,
+                       ComparedStates compared,
                        const ReportConfig& config,
                        ReportPictures& pictures) {
-    const auto& [before, since, change] = compared;
     ReportChange values{.since = day_of(*config.since_ms),
-                        .change = change,
+                        .change = {},
                         .colours = {},
+                        .dark_colours = {},
                         .worse = {},
                         .better = {},
                         .map = {}};
-    std::ranges::copy(class_colours(config.style, values.colours.size()), values.colours.begin());
-    if (change.segments.empty()) {
-        return values;
+    std::ranges::copy(change_colours(false), values.colours.begin());
+    std::ranges::copy(change_colours(true), values.dark_colours.begin());
+    if (!compared.change.segments.empty()) {
+        pictures.expect_more(pictures_of(compared.change));
+        auto map = whole_scene(store,
+                               config.style,
+                               config.pictures,
+                               config.filter,
+                               [&](const GeoBox& box, double scale) {
+                                   auto lines = change_lines(store, box, compared.verdicts, scale);
+                                   for (auto& line : lines) { // not comparable: as unmeasured
+                                       line.iri_class = line.few_passes ? -1 : line.iri_class;
+                                       line.few_passes = false;
+                                   }
+                                   return lines;
+                               });
+        values.map_width_m = pictures.map_width_m(map.scene);
+        values.map = pictures.map(std::move(map), true);
+        values.worse = drawn(store, compared.change.worse, compared, pictures);
+        values.better = drawn(store, compared.change.better, compared, pictures);
     }
-    auto scene = whole_scene(store, config.style, config.pictures, config.filter);
-    colour_change(scene, change.segments, since);
-    values.map_width_m = pictures.map_width_m(scene);
-    values.map = pictures.map(std::move(scene), &change_classes());
-    values.worse = drawn(store, change.worse, change, since, pictures);
-    values.better = drawn(store, change.better, change, since, pictures);
+    values.change = std::move(compared.change);
     return values;
 }
 
@@ -305,8 +315,8 @@ void put_overview(const StoreReader& store,
                   ReportPictures& pictures,
                   Report& report) {
     auto map = whole_scene(store, config.style, config.pictures, config.filter);
-    report.few_passes = few_passes_of(map, config);
-    report.map_width_m = pictures.map_width_m(map);
+    report.few_passes = few_passes_of(map.scene, config);
+    report.map_width_m = pictures.map_width_m(map.scene);
     report.map = pictures.map(std::move(map));
 }
 
@@ -351,20 +361,14 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
         put_events(store, config.filter, report);
     }
 
-    const auto change =
-        config.since_ms
-            ? std::optional{compare_since(store, roads, config.filter, *config.since_ms)}
-            : std::nullopt;
-    ReportPictures pictures{config.style,
-                            config.pictures,
-                            progress,
-                            stretches.size() + 1 + (change ? pictures_of(change->change) : 0)};
+    ReportPictures pictures{config.style, config.pictures, progress, stretches.size() + 1};
     put_worst(store, stretches, survey, classes, pictures, report);
     survey = {}; // both make room for the roads of the map
     roads = {};
     put_overview(store, config, pictures, report);
-    if (change) {
-        report.change = change_of(store, *change, config, pictures);
+    if (config.since_ms) {
+        auto compared = compare_since(store, config.filter, *config.since_ms);
+        report.change = change_of(store, std::move(compared), config, pictures);
     }
     return report;
 }

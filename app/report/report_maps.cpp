@@ -1,6 +1,6 @@
 #include "app/report/report_maps.hpp"
 
-#include "app/render/map_scene.hpp"
+#include "app/render/change_map.hpp"
 #include "estimator/common/error.hpp"
 
 #include <algorithm>
@@ -20,9 +20,9 @@ struct PictureSizes {
 };
 // A screen has 96 px per inch and shows maps at half their size, sections at two thirds; sheets of
 // A4 have a map over their whole width, and sections over half of it.
-constexpr PictureSizes on_screen{1400, 192, 0.893, 480, 144, 0.75};
+constexpr PictureSizes on_screen{1400, 192, 1.1, 480, 144, 0.75};
 constexpr PictureSizes on_paper{2125, 300, 0.65, 1010, 300, 0.54};
-constexpr double min_map_shape = 0.625; // height / width
+constexpr double min_map_shape = 0.45; // height / width
 
 constexpr double min_margin_m = 60;   // around a section: the next side streets
 constexpr double margin_share = 0.25; // share of its extent
@@ -89,18 +89,25 @@ ReportPictures::ReportPictures(const MapStyle& style,
                                std::size_t count)
     : style_{unadorned(style)}, use_{use}, progress_{progress}, count_{count} {}
 
-ReportPicture
-ReportPictures::draw(MapScene scene, const PictureSize& size, const ClassTable* classes) {
+ReportPicture ReportPictures::draw(ReportScene map, const PictureSize& size, bool is_of_changes) {
     if (progress_.stop.stop_requested()) {
         throw InputError{"stopped before the report was complete"};
     }
     progress_(++drawn_, count_);
     const auto png = [&](MapStyle::Theme theme) {
         auto style = in_theme(style_, theme);
-        style.classes = classes != nullptr ? classes : style.classes;
-        MapPlan plan{std::move(scene), style, size}; // a second copy of a large map would not fit
+        if (is_of_changes) {
+            style.classes = &change_classes();
+            style.own_ramp = change_colours(theme == MapStyle::Theme::dark);
+        }
+        // Moved to and fro: a second copy of a large map would not fit.
+        auto lines = std::move(map.scene.lines);
+        MapPlan plan{std::move(map.scene), style, size};
+        plan.set_background(std::move(map.background));
+        plan.set_roads(std::move(lines));
         auto bytes = encode_png(image_of(plan));
-        scene = std::move(plan).scene();
+        map.background = std::move(plan).background();
+        map.scene = std::move(plan).scene();
         return bytes;
     };
     using enum MapStyle::Theme;
@@ -112,13 +119,15 @@ ReportPictures::draw(MapScene scene, const PictureSize& size, const ClassTable* 
     return picture;
 }
 
-ReportPicture ReportPictures::map(MapScene scene, const ClassTable* classes) {
-    const auto size = map_size(scene.box, use_);
-    return draw(std::move(scene), size, classes);
+ReportPicture ReportPictures::map(ReportScene map, bool is_of_changes) {
+    const auto size = map_size(map.scene.box, use_);
+    return draw(std::move(map), size, is_of_changes);
 }
 
-ReportPicture ReportPictures::stretch(MapScene scene, const ClassTable* classes) {
-    return draw(std::move(scene), stretch_size(use_), classes);
+ReportPicture ReportPictures::stretch(MapScene scene, bool is_of_changes) {
+    ReportScene map;
+    map.scene = std::move(scene);
+    return draw(std::move(map), stretch_size(use_), is_of_changes);
 }
 
 double ReportPictures::map_width_m(const MapScene& scene) const {
@@ -128,21 +137,24 @@ double ReportPictures::map_width_m(const MapScene& scene) const {
     return MapPlan{std::move(empty), style_, map_size(scene.box, use_)}.ground_width_m();
 }
 
-MapScene whole_scene(const StoreReader& store,
-                     const MapStyle& style,
-                     PictureUse use,
-                     const SegmentFilter& filter) {
+ReportScene whole_scene(const StoreReader& store,
+                        const MapStyle& style,
+                        PictureUse use,
+                        const SegmentFilter& filter,
+                        const LoadLines& lines) {
     // A picture of maximum height shows at least as much as lower ones of the same box.
     const auto& sizes = sizes_for(use);
     const PictureSize size{.width_px = sizes.map_width_px,
                            .height_px = static_cast<int>(sizes.map_width_px * sizes.max_map_shape),
                            .px_per_inch = sizes.map_px_per_inch};
-    auto plan = load_map(store, {.filter = filter, .style = unadorned(style), .size = size});
-    auto scene = std::move(plan).scene();
-    scene.subtitle.clear();    // on the page
-    scene.attribution.clear(); // likewise
-    scene.scale_bar = false;   // likewise, in letters as large as all others on a phone
-    return scene;
+    auto plan = load_map(store, {.filter = filter, .style = unadorned(style), .size = size}, lines);
+    ReportScene map;
+    map.background = std::move(plan).background();
+    map.scene = std::move(plan).scene();
+    map.scene.subtitle.clear();    // on the page
+    map.scene.attribution.clear(); // likewise
+    map.scene.scale_bar = false;   // likewise, in letters as large as all others on a phone
+    return map;
 }
 
 MapScene

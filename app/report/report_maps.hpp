@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/render/map_scene.hpp"
 #include "estimator/common/progress.hpp"
 #include "mapping/analysis/worst_sections.hpp"
 #include "mapping/fusion/measured_segment.hpp"
@@ -15,6 +16,12 @@ namespace macadam {
 /// Medium of the pictures: screens (light and dark) or print.
 enum class PictureUse { screen, paper };
 
+/// Scene of a picture and what lies below its roads.
+struct ReportScene {
+    MapScene scene;
+    MapBackground background{};
+};
+
 /// Returns the style of a report's maps in one of its themes. A style's own colours apply to pages
 /// as dark as its theme; other pages use the colours of the theme.
 MapStyle in_theme(MapStyle style, MapStyle::Theme theme);
@@ -28,17 +35,19 @@ public:
                    const Progress& progress,
                    std::size_t count);
 
-    /// Draws a picture of the size for maps or for sections.
-    /// \param classes      class table of the scene's lines; null: that of the report
+    /// Announces further pictures.
+    void expect_more(std::size_t count) { count_ += count; }
+
+    /// Draws a picture of the size for maps or for sections, of roughness or of changes.
     /// \throws InputError  on a stop request.
-    ReportPicture map(MapScene scene, const ClassTable* classes = nullptr);
-    ReportPicture stretch(MapScene scene, const ClassTable* classes = nullptr);
+    ReportPicture map(ReportScene map, bool is_of_changes = false);
+    ReportPicture stretch(MapScene scene, bool is_of_changes = false);
 
     /// Returns the width of a map on the ground.
     double map_width_m(const MapScene& scene) const;
 
 private:
-    ReportPicture draw(MapScene scene, const PictureSize& size, const ClassTable* classes);
+    ReportPicture draw(ReportScene map, const PictureSize& size, bool is_of_changes);
 
     MapStyle style_;
     PictureUse use_;
@@ -49,10 +58,13 @@ private:
 
 /// Builds a scene of all roads, or of those that a filter selects, without the text that the page
 /// has itself.
-MapScene whole_scene(const StoreReader& store,
-                     const MapStyle& style,
-                     PictureUse use,
-                     const SegmentFilter& filter = {});
+///
+/// \param lines  as of load_map
+ReportScene whole_scene(const StoreReader& store,
+                        const MapStyle& style,
+                        PictureUse use,
+                        const SegmentFilter& filter = {},
+                        const LoadLines& lines = {});
 
 /// Builds a scene around a section, with all roads muted.
 MapScene

@@ -1,6 +1,5 @@
 #include "app/report/report_survey.hpp"
 
-#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -17,34 +16,11 @@ SegmentFilter places_of(SegmentFilter filter) {
     return filter;
 }
 
-/// Collects segments without their lines, each text once.
-class SegmentCollector {
-public:
-    void add(const SegmentRecord& record) {
-        auto segment = measured_segment(record);
-        segment.name = kept(record.name);
-        segment.highway = kept(record.highway);
-        measured_.push_back(segment);
-    }
-
-    void put_into(Survey& survey) && {
-        survey.measured = std::move(measured_);
-        survey.texts = std::move(texts_);
-    }
-
-private:
-    std::string_view kept(const std::string& text) { return *texts_->insert(text).first; }
-
-    std::vector<MeasuredSegment> measured_;
-    std::shared_ptr<std::set<std::string, std::less<>>> texts_ =
-        std::make_shared<std::set<std::string, std::less<>>>();
-};
-
 } // namespace
 
 Survey survey_of(const StoreReader& store, const SegmentFilter& filter) {
     Survey survey;
-    SegmentCollector collector;
+    MeasuredSegments collected;
     const bool selects_places_alone = filter.class_name.empty() && filter.min_passes == 0 &&
                                       filter.min_vehicles == 0 && filter.vehicle.empty() &&
                                       !filter.period;
@@ -52,13 +28,14 @@ Survey survey_of(const StoreReader& store, const SegmentFilter& filter) {
         ++survey.segments;
         survey.network_m[record.highway] += record.segment.to_m - record.segment.from_m;
         if (selects_places_alone && record.state) {
-            collector.add(record);
+            collected.add(record);
         }
     });
     if (!selects_places_alone) {
-        store.visit(filter, [&](const SegmentRecord& record) { collector.add(record); });
+        store.visit(filter, [&](const SegmentRecord& record) { collected.add(record); });
     }
-    std::move(collector).put_into(survey);
+    survey.measured = std::move(collected.segments);
+    survey.texts = std::move(collected.texts);
     return survey;
 }
 

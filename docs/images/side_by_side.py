@@ -69,7 +69,7 @@ def with_qgis():
     job.renderedImage().save(folder + "/maps-qgis.png")
     labels = job.takeLabelingResults().allLabels()  # a part for each letter
     print("QGIS:", len({label.labelText for label in labels}), "names,",
-          len({label.groupedLabelId for label in labels}), "labels")
+          len({(label.labelText, label.featureId) for label in labels}), "labels")
 
 
 def with_mapnik():

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -22,16 +23,14 @@ struct SegmentPair {
 /// Returns the segments known on both sides and reports the length known on one side only to
 /// `alone`.
 template <typename Alone>
-std::vector<SegmentPair> common_places(std::span<const SegmentRecord> before,
-                                       std::span<const SegmentRecord> since,
+std::vector<SegmentPair> common_places(std::span<const MeasuredSegment> before,
+                                       std::span<const MeasuredSegment> since,
                                        const Alone& alone) {
     std::vector<SegmentPair> places;
     std::size_t i = 0, k = 0;
     while (i < before.size() || k < since.size()) {
-        const bool first = k == since.size() ||
-                           (i < before.size() && before[i].segment.key < since[k].segment.key);
-        const bool second =
-            !first && (i == before.size() || since[k].segment.key < before[i].segment.key);
+        const bool first = k == since.size() || (i < before.size() && before[i].key < since[k].key);
+        const bool second = !first && (i == before.size() || since[k].key < before[i].key);
         if (first) {
             alone(before[i++], &ChangeLengths::before_alone_m);
         } else if (second) {
@@ -75,26 +74,27 @@ bool says_nothing(const ChangeLengths& lengths) {
            0;
 }
 
-/// Converts differences to states, positive for segments of the given verdict and 0 otherwise, so
-/// that worst_sections finds their sections.
-std::vector<SegmentRecord> as_records(std::span<const ComparedSegment> segments,
-                                      std::span<const SegmentRecord> since,
-                                      Verdict verdict) {
-    std::vector<SegmentRecord> records;
+/// Converts differences to roughness, positive for segments of the given verdict and 0 otherwise,
+/// so that worst_sections finds their sections.
+std::vector<MeasuredSegment> as_records(std::span<const ComparedSegment> segments,
+                                        std::span<const MeasuredSegment> since,
+                                        Verdict verdict) {
+    std::vector<MeasuredSegment> records;
+    records.reserve(segments.size());
     for (const auto& segment : segments) {
         auto record = since[segment.after];
         const double change = std::abs(segment.difference.mm_per_m) * um_per_mm;
-        record.state->iri_um =
+        record.iri_um =
             segment.verdict == verdict ? std::max(1, static_cast<IriUm>(std::lround(change))) : 0;
-        records.push_back(std::move(record));
+        records.push_back(record);
     }
     return records;
 }
 
 ChangedStretch rated(WorstSection stretch,
                      const ChangeSince& change,
-                     std::span<const SegmentRecord> before,
-                     std::span<const SegmentRecord> since) {
+                     std::span<const MeasuredSegment> before,
+                     std::span<const MeasuredSegment> since) {
     std::vector<RatedLength> first, second;
     std::vector<Difference> differences;
     for (const auto i : stretch.records) {
@@ -112,8 +112,8 @@ ChangedStretch rated(WorstSection stretch,
 
 std::vector<ChangedStretch> stretches_of(const RoadNetwork& roads,
                                          const ChangeSince& change,
-                                         std::span<const SegmentRecord> before,
-                                         std::span<const SegmentRecord> since,
+                                         std::span<const MeasuredSegment> before,
+                                         std::span<const MeasuredSegment> since,
                                          Verdict verdict) {
     const WorstSectionConfig runs{.above_mm_per_m = 0,
                                   .min_length_m = change.config.min_length_m,
@@ -141,30 +141,31 @@ std::vector<bool> verdicts(std::span<const Difference> differences, double rate)
 
 } // namespace
 
-double common_variance(const SegmentState& state, const FusionConfig& config) {
-    if (state.vehicles == 0) {
+double common_variance(const MeasuredSegment& segment, const FusionConfig& config) {
+    if (segment.vehicles == 0) {
         return 0;
     }
-    const double level = state.iri_um / um_per_mm;
-    const double sd = state.sd_um / um_per_mm;
+    const double level = segment.iri_um / um_per_mm;
+    const double sd = segment.sd_um / um_per_mm;
     const double rest = std::hypot(
         config.rest_relative_sd * level, config.trip_relative_sd * level, config.rest_sd_mm_per_m);
-    const double of_cars = sd * sd - rest * rest / state.passes;
-    const double stated = of_cars / (config.common_share + config.car_share / state.vehicles);
+    const double of_cars = sd * sd - rest * rest / segment.passes;
+    const double stated = of_cars / (config.common_share + config.car_share / segment.vehicles);
     const double common = std::max(0.0, config.common_share * stated);
-    if ((state.validity & validity::lateral_alone) != 0) {
+    if ((segment.validity & validity::lateral_alone) != 0) {
         return common;
     }
     return std::min(common,
-                    max_common_variance_um2(state.iri_um, config) / (um_per_mm * um_per_mm));
+                    max_common_variance_um2(segment.iri_um, config) / (um_per_mm * um_per_mm));
 }
 
-Difference
-difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config) {
+Difference difference_of(const MeasuredSegment& before,
+                         const MeasuredSegment& after,
+                         const FusionConfig& config) {
     const auto first = rated_length(before);
     const auto second = rated_length(after);
-    const double common1 = common_variance(*before.state, config);
-    const double common2 = common_variance(*after.state, config);
+    const double common1 = common_variance(before, config);
+    const double common2 = common_variance(after, config);
     const double apart = first.sd * first.sd - common1 + second.sd * second.sd - common2;
     return {second.length_m,
             second.iri - first.iri,
@@ -194,22 +195,32 @@ std::vector<bool> called(std::span<const double> chances, double rate) {
 }
 
 ChangeSince change_since(const RoadNetwork& roads,
-                         std::span<const SegmentRecord> before,
-                         std::span<const SegmentRecord> since,
-                         const ChangeSinceConfig& config) {
+                         std::span<const MeasuredSegment> before,
+                         std::span<const MeasuredSegment> since,
+                         const ChangeSinceConfig& config,
+                         const AloneLengths& alone) {
     ChangeSince change;
     change.config = config;
     for (const auto kind : road_kinds()) {
         change.kinds.emplace_back().kind = kind;
     }
-    const auto of_kind = [&](const SegmentRecord& record) -> ChangeLengths& {
-        return *std::ranges::find(change.kinds, road_kind(record.highway), &ChangeLengths::kind);
+    const auto of_kind = [&](std::string_view highway) -> ChangeLengths& {
+        return *std::ranges::find(change.kinds, road_kind(highway), &ChangeLengths::kind);
     };
-    const auto places = common_places(
-        before, since, [&](const SegmentRecord& record, double ChangeLengths::*alone_m) {
-            const double length_m = record.segment.to_m - record.segment.from_m;
+    const auto add_alone =
+        [&](std::string_view highway, double length_m, double ChangeLengths::*alone_m) {
             change.all.*alone_m += length_m;
-            of_kind(record).*alone_m += length_m;
+            of_kind(highway).*alone_m += length_m;
+        };
+    for (const auto& [highway, length_m] : alone.before_m) {
+        add_alone(highway, length_m, &ChangeLengths::before_alone_m);
+    }
+    for (const auto& [highway, length_m] : alone.since_m) {
+        add_alone(highway, length_m, &ChangeLengths::since_alone_m);
+    }
+    const auto places = common_places(
+        before, since, [&](const MeasuredSegment& segment, double ChangeLengths::*alone_m) {
+            add_alone(segment.highway, segment.to_m - segment.from_m, alone_m);
         });
     std::vector<Difference> differences;
     for (const auto& [i, k] : places) {
@@ -225,7 +236,7 @@ ChangeSince change_since(const RoadNetwork& roads,
                                                            : Verdict::improved;
         change.segments.push_back({places[i].before, places[i].after, differences[i], verdict});
         add(change.all, change.segments.back());
-        add(of_kind(since[places[i].after]), change.segments.back());
+        add(of_kind(since[places[i].after].highway), change.segments.back());
     }
     change.all.mean = mean_of(differences);
     for (auto& kind : change.kinds) {

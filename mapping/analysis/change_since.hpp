@@ -3,11 +3,13 @@
 #include "mapping/analysis/length_weighted_mean.hpp"
 #include "mapping/analysis/worst_sections.hpp"
 #include "mapping/fusion/fusion_config.hpp"
-#include "mapping/fusion/segment_record.hpp"
+#include "mapping/fusion/measured_segment.hpp"
 #include "mapping/network/road_network.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,10 +32,10 @@ struct Difference {
     double sd = 0;
 };
 
-/// Returns the part of a state's variance that all cars share, mm^2/m^2. Fusion gives n passes by m
-/// cars of stated variance s^2 the variance share s^2 + car_share s^2 / m + rest^2 / n, which is
-/// solved for s. 0 where the state rests on references alone.
-double common_variance(const SegmentState& state, const FusionConfig& config);
+/// Returns the part of a segment's variance that all cars share, mm^2/m^2. Fusion gives n passes by
+/// m cars of stated variance s^2 the variance share s^2 + car_share s^2 / m + rest^2 / n, which is
+/// solved for s. 0 where it rests on references alone.
+double common_variance(const MeasuredSegment& segment, const FusionConfig& config);
 
 /// Computes the change of a segment between two states. The error c common to all cars is present
 /// on both sides, since the models of the cars and the method are unchanged, and cancels as far as
@@ -41,9 +43,10 @@ double common_variance(const SegmentState& state, const FusionConfig& config);
 /// on both sides cancels part of its own error too; this is ignored, so the variance errs on the
 /// large side.
 ///
-/// \param before, after  the same segment from different passes, with states.
-Difference
-difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config);
+/// \param before, after  the same segment from different passes
+Difference difference_of(const MeasuredSegment& before,
+                         const MeasuredSegment& after,
+                         const FusionConfig& config);
 
 /// Returns the probability of a difference at least as large, of either sign, if nothing has
 /// changed. Assumes normal errors.
@@ -97,16 +100,24 @@ struct ChangeSince {
     std::vector<ChangedStretch> better; ///< largest change first
 };
 
+/// Lengths by OSM's class of road that have passes on one side of the day only, m.
+struct AloneLengths {
+    std::map<std::string, double, std::less<>> before_m;
+    std::map<std::string, double, std::less<>> since_m;
+};
+
 /// Compares roads before and since a day. Segments measured on both sides are compared;
 /// neighbouring segments that have become significantly rougher (or smoother) are joined to
 /// sections as in worst_sections, bridging at most 50 m of other segments. The difference of a
 /// section covers all its segments and has the interval of road_mean. Only sections whose 90 %
 /// interval excludes zero are listed.
 ///
-/// \param before, since  segments with states from passes of that period alone, in key order.
+/// \param before, since  segments of passes of that period alone, in key order.
+/// \param alone          further lengths that have passes on one side only
 ChangeSince change_since(const RoadNetwork& roads,
-                         std::span<const SegmentRecord> before,
-                         std::span<const SegmentRecord> since,
-                         const ChangeSinceConfig& config);
+                         std::span<const MeasuredSegment> before,
+                         std::span<const MeasuredSegment> since,
+                         const ChangeSinceConfig& config,
+                         const AloneLengths& alone = {});
 
 } // namespace macadam

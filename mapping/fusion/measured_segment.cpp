@@ -22,4 +22,10 @@ MeasuredSegment measured_segment(const SegmentRecord& record) {
             .last_seen_ms = state.last_seen_ms};
 }
 
+void MeasuredSegments::add(const SegmentRecord& record) {
+    auto& segment = segments.emplace_back(measured_segment(record));
+    segment.name = *texts->insert(record.name).first;
+    segment.highway = *texts->insert(record.highway).first;
+}
+
 } // namespace macadam

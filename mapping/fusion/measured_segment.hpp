@@ -3,8 +3,13 @@
 #include "mapping/fusion/segment_record.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam {
 
@@ -25,5 +30,15 @@ struct MeasuredSegment {
 /// Returns what is known of a record, whose texts must outlive it.
 /// \param record  with a state
 MeasuredSegment measured_segment(const SegmentRecord& record);
+
+/// Measured segments with the texts that they refer to, each text once.
+struct MeasuredSegments {
+    std::vector<MeasuredSegment> segments{};
+    std::shared_ptr<std::set<std::string, std::less<>>> texts =
+        std::make_shared<std::set<std::string, std::less<>>>();
+
+    /// \param record  with a state
+    void add(const SegmentRecord& record);
+};
 
 } // namespace macadam

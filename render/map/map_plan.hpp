@@ -71,6 +71,7 @@ public:
 
     const MapScene& scene() const& { return scene_; }
     MapScene scene() && { return std::move(scene_); }
+    MapBackground background() && { return std::move(background_); }
     const MapStyle& style() const { return style_; }
     const PictureSize& size() const { return size_; }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 namespace macadam {
 
@@ -137,13 +138,17 @@ void add_stretches(DocumentSection& section,
 
 Legend legend_of(const Report& report) {
     const auto& say = report.wording;
-    const auto& colours = report.change->colours;
-    return {
-        say("change.legend"),
-        {{colours[static_cast<std::size_t>(Verdict::deteriorated)], say("column.deteriorated"), ""},
-         {colours[static_cast<std::size_t>(Verdict::no_change_shown)], say("column.no_change"), ""},
-         {colours[static_cast<std::size_t>(Verdict::improved)], say("column.improved"), ""},
-         {std::nullopt, say("change.not_comparable"), ""}}};
+    const auto entry = [&](Verdict verdict, std::string_view word) {
+        const auto i = static_cast<std::size_t>(verdict);
+        return LegendEntry{
+            report.change->colours[i], say(word), "", report.change->dark_colours[i]};
+    };
+    Legend legend{say("change.legend"), {}};
+    legend.entries.push_back(entry(Verdict::deteriorated, "column.deteriorated"));
+    legend.entries.push_back(entry(Verdict::no_change_shown, "column.no_change"));
+    legend.entries.push_back(entry(Verdict::improved, "column.improved"));
+    legend.entries.push_back({std::nullopt, say("change.not_comparable"), ""});
+    return legend;
 }
 
 } // namespace

@@ -115,8 +115,9 @@ struct ReportChangedStretch {
 struct ReportChange {
     std::string since; ///< day, "2026-03-01"
     ChangeSince change;
-    std::array<std::uint32_t, 3> colours;    ///< of the map, in the order of Verdict
-    std::vector<ReportChangedStretch> worse; ///< largest change first
+    std::array<std::uint32_t, 3> colours;      ///< of the map, in the order of Verdict
+    std::array<std::uint32_t, 3> dark_colours; ///< likewise, on dark pages
+    std::vector<ReportChangedStretch> worse;   ///< largest change first
     std::vector<ReportChangedStretch> better;
     ReportPicture map;
     double map_width_m = 0;

@@ -14,6 +14,8 @@ constexpr double bullet_indent_pt = 10;
 constexpr std::size_t keys_in_a_row = 5;
 constexpr double card_gap_pt = 12;
 constexpr double card_picture_share = 0.49; // of the width; the text is beside
+constexpr double min_chart_share = 0.75; // of the text's width, so that the picture sets the height
+constexpr double chart_air_pt = 4;       // above a card's chart
 constexpr int photos_in_a_row = 4;
 constexpr double photo_gap_pt = 5;
 constexpr double key_padding_pt = 7;
@@ -47,7 +49,7 @@ struct Key {
 /// Layout of a card: a picture, beside it text and chart, and photos below.
 struct CardLayout {
     PdfText title, text;
-    double picture_width_pt, text_width_pt;
+    double picture_width_pt, text_width_pt, chart_width_pt;
     double picture_pt, chart_pt, photos_pt; ///< heights
 
     double top_pt() const {
@@ -293,13 +295,25 @@ namespace {
 CardLayout lay_out(const PdfSheets& sheets, const Card& card) {
     const double picture_width_pt = card_picture_share * (sheets.width_pt() - card_gap_pt);
     const double text_width_pt = sheets.width_pt() - card_gap_pt - picture_width_pt;
-    return {sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, text_width_pt),
-            sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, text_width_pt),
-            picture_width_pt,
-            text_width_pt,
+    CardLayout of{
+        .title = sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, text_width_pt),
+        .text = sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, text_width_pt),
+        .picture_width_pt = picture_width_pt,
+        .text_width_pt = text_width_pt,
+        .chart_width_pt = 0,
+        .picture_pt =
             picture_width_pt * card.picture.height_px / std::max(1, card.picture.width_px),
-            card.chart ? 4 + text_width_pt * card.chart->height / card.chart->width : 0,
-            lay_out(sheets, card.photos, sheets.width_pt()).height_pt};
+        .chart_pt = 0,
+        .photos_pt = lay_out(sheets, card.photos, sheets.width_pt()).height_pt};
+    if (card.chart) {
+        const double shape = card.chart->height / card.chart->width;
+        const double room_pt =
+            of.picture_pt - of.title.height_pt() - of.text.height_pt() - chart_air_pt;
+        of.chart_width_pt =
+            std::clamp(room_pt / shape, min_chart_share * text_width_pt, text_width_pt);
+        of.chart_pt = chart_air_pt + of.chart_width_pt * shape;
+    }
+    return of;
 }
 
 void put_card(PdfSheets& sheets, const Card& card, const CardLayout& of) {
@@ -319,7 +333,11 @@ void put_card(PdfSheets& sheets, const Card& card, const CardLayout& of) {
         sheets.draw(of.text, x_pt, y_pt);
     }
     if (card.chart) {
-        draw_at(sheets, *card.chart, x_pt, y_pt + of.text.height_pt() + 4, of.text_width_pt);
+        draw_at(sheets,
+                *card.chart,
+                x_pt,
+                y_pt + of.text.height_pt() + chart_air_pt,
+                of.chart_width_pt);
     }
     put_photos(sheets,
                card.photos,

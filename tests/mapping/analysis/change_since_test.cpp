@@ -27,14 +27,24 @@ RoadNetwork one_road(double length_m) {
 
 /// Every segment of the road's forward direction, with what `state` makes of its number.
 template <typename State>
-std::vector<SegmentRecord> driven(const RoadNetwork& roads, State state) {
-    std::vector<SegmentRecord> records;
+std::vector<MeasuredSegment> driven(const RoadNetwork& roads, State state) {
+    MeasuredSegments measured;
     for (const auto& segment : segments_of(roads, edge_of(LinkId{0}, true))) {
         auto of = state(segment.key.index);
         of.segment = segment.key;
-        records.push_back({segment, "Long Road", "residential", of});
+        measured.add({segment, "Long Road", "residential", of});
     }
-    return records;
+    static std::vector<MeasuredSegments> kept; // the texts of what is returned
+    return kept.emplace_back(measured).segments;
+}
+
+/// A segment with a state.
+MeasuredSegment with(const SegmentState& state) {
+    SegmentRecord record{};
+    record.state = state;
+    auto segment = measured_segment(record);
+    segment.name = segment.highway = "";
+    return segment;
 }
 
 SegmentState reading(double iri, double sd = 0.1) {
@@ -91,9 +101,8 @@ double share_called(double stated, int cars_before, int cars_since) {
     int called = 0;
     for (int i = 0; i < segments; ++i) {
         const double common = fleet.normal();
-        SegmentRecord before{}, since{};
-        before.state = fleet.state(2.5, common, cars_before);
-        since.state = fleet.state(2.5, common, cars_since);
+        const auto before = with(fleet.state(2.5, common, cars_before));
+        const auto since = with(fleet.state(2.5, common, cars_since));
         called += chance_of(difference_of(before, since, {})) < 0.05 ? 1 : 0;
     }
     return static_cast<double>(called) / segments;
@@ -119,9 +128,8 @@ TEST(ChangeSince, FindsMostOfAKnownChangeAndHardlyAnythingElse) {
     std::vector<double> chances;
     for (int i = 0; i < segments; ++i) {
         const double common = fleet.normal();
-        SegmentRecord before{}, since{};
-        before.state = fleet.state(2.5, common, 4);
-        since.state = fleet.state(i % 3 == 0 ? 3.7 : 2.5, common, 4);
+        const auto before = with(fleet.state(2.5, common, 4));
+        const auto since = with(fleet.state(i % 3 == 0 ? 3.7 : 2.5, common, 4));
         chances.push_back(chance_of(difference_of(before, since, {})));
     }
     const auto calls = called(chances, 0.05);
@@ -137,23 +145,21 @@ TEST(ChangeSince, TakesWhatAllCarsShareOutOfTheNoise) {
     // 100 cars whose passes hardly scatter: nearly all of the variance is common.
     auto state = reading(2, 0.15);
     state.passes = state.vehicles = 100;
-    SegmentRecord record{};
-    record.state = state;
-    EXPECT_NEAR(std::sqrt(common_variance(state, {})), 0.15, 0.005);
-    EXPECT_LT(difference_of(record, record, {}).sd, 0.06); // not 0.15 sqrt(2) = 0.21
+    EXPECT_NEAR(std::sqrt(common_variance(with(state), {})), 0.15, 0.005);
+    EXPECT_LT(difference_of(with(state), with(state), {}).sd, 0.06); // not 0.15 sqrt(2) = 0.21
 }
 
 TEST(ChangeSince, TakesNoMoreOutOfUnknownCarsThanTheyShare) {
     auto state = reading(2, 0.6);
     state.passes = state.vehicles = 100;
     const double shared = std::hypot(0.07 * 2, 0.08); // the limits of FusionConfig
-    EXPECT_NEAR(std::sqrt(common_variance(state, {})), shared, 1e-9);
+    EXPECT_NEAR(std::sqrt(common_variance(with(state), {})), shared, 1e-9);
 }
 
 TEST(ChangeSince, TakesNothingOutOfReferences) {
     auto state = reading(2, 0.3);
     state.passes = state.vehicles = 0;
-    EXPECT_EQ(common_variance(state, {}), 0);
+    EXPECT_EQ(common_variance(with(state), {}), 0);
 }
 
 TEST(ChangeSince, ControlsTheShareOfFalseCallsAsThePaperDoes) {
@@ -219,12 +225,15 @@ TEST(ChangeSince, ComparesOnlyWhatBothSidesKnow) {
     auto since = driven(roads, two);
     before.erase(before.begin(), before.begin() + 5);
     since.erase(since.end() - 2, since.end());
-    const auto change = change_since(roads, before, since, {});
+    AloneLengths alone;
+    alone.since_m["motorway"] = 1000;
+    const auto change = change_since(roads, before, since, {}, alone);
     EXPECT_THAT(change.segments, SizeIs(13));
-    EXPECT_NEAR(change.all.since_alone_m, 100, 0.5);
+    EXPECT_NEAR(change.all.since_alone_m, 1100, 0.5);
     EXPECT_NEAR(change.all.before_alone_m, 40, 0.5);
-    EXPECT_EQ(before[change.segments[0].before].segment.key,
-              since[change.segments[0].after].segment.key);
+    ASSERT_THAT(change.kinds, SizeIs(2));
+    EXPECT_EQ(change.kinds[0].since_alone_m, 1000);
+    EXPECT_EQ(before[change.segments[0].before].key, since[change.segments[0].after].key);
 }
 
 } // namespace

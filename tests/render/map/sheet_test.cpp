@@ -1,5 +1,7 @@
 #include "render/map/legend.hpp"
+#include "render/map/legend_placement.hpp"
 #include "render/map/map_plan.hpp"
+#include "render/map/sheet_shape.hpp"
 #include "render/scene/colour.hpp"
 
 #include <gmock/gmock.h>
@@ -110,20 +112,101 @@ MapScene two_towns() {
 
 } // namespace
 
-TEST(Sheet, IsNeverEmptyForAThirdInAShapeThatSuitsTheData) {
+TEST(Sheet, IsNeverEmptyForAThirdInAShapeThatSuitsTheDataOrHasRoomForDetails) {
     int seen = 0;
+    int with_details = 0;
     for (const auto& [name, scene] : shapes()) {
         auto words = scene;
         words.lines.clear();
         const auto size = size_for(words, {}, usual, other_shapes(usual));
         MapPlan plan{words, {}, size};
         plan.set_roads(scene.lines);
-        EXPECT_LT(plan.empty_share(), 1.0 / 3)
+        const bool has_details = plan.detail_room().has_value();
+        with_details += has_details ? 1 : 0;
+        EXPECT_TRUE(plan.empty_share() < 1.0 / 3 || has_details)
             << name << ": " << size.width_px << " x " << size.height_px;
         EXPECT_NEAR(double(size.width_px) * size.height_px, 1600 * 1200, 3000) << name;
         ++seen;
     }
     EXPECT_EQ(seen, 7);
+    EXPECT_LE(with_details, 3); // the thin ones and the one road
+}
+
+TEST(Sheet, FillsTheGroundBesideThinDataWithDetailsAtARoundScale) {
+    const auto thin = filled("thin tall", 5000, 20'000).scene;
+    MapPlan plan{thin, {}, usual};
+    const auto room = plan.detail_room();
+    ASSERT_TRUE(room);
+    EXPECT_GE(room->count, 1U);
+    EXPECT_EQ(detail_scale(plan.scale()), room->scale_denominator);
+    EXPECT_GT(plan.scale(), 2 * room->scale_denominator);
+
+    auto scene = thin;
+    const auto south_west = at(-room->width_m / 2, 0);
+    const auto north_east = at(room->width_m / 2, room->height_m);
+    scene.insets.push_back(
+        {{south_west.lon_deg, south_west.lat_deg, north_east.lon_deg, north_east.lat_deg},
+         "Mitte",
+         room->scale_denominator});
+    MapPlan sheet{scene, {}, usual};
+    ASSERT_EQ(sheet.insets().size(), 1U);
+    EXPECT_EQ(sheet.locator(), nullptr);
+    EXPECT_EQ(sheet.insets()[0].scene().title, "A   Mitte");
+    EXPECT_NEAR(sheet.insets()[0].scale(), room->scale_denominator, 1);
+    EXPECT_LT(sheet.empty_share(), 1.0 / 3);
+    EXPECT_FALSE(sheet.detail_room()); // it is full
+}
+
+TEST(Sheet, HasNoDetailsWhereTheDataFillsItOrIsLargeAlready) {
+    EXPECT_FALSE((MapPlan{filled("usual", 8000, 6000).scene, {}, usual}.detail_room()));
+    EXPECT_FALSE((MapPlan{sheet(100, 1000), {}, usual}.detail_room())); // 1:4,000
+    EXPECT_EQ(detail_scale(6000), std::nullopt);
+    EXPECT_EQ(detail_scale(6250), 2500);
+    EXPECT_EQ(detail_scale(64'000), 25'000);
+    EXPECT_EQ(detail_scale(1'000'000), 400'000);
+}
+
+TEST(Sheet, HasTheScaleThatIsAskedFor) {
+    auto scene = filled("usual", 8000, 6000).scene;
+    scene.scale_denominator = 25'000;
+    for (const auto& size :
+         {usual, PictureSize{.width_px = 3508, .height_px = 2480, .px_per_inch = 300}}) {
+        const MapPlan plan{scene, {}, size};
+        EXPECT_NEAR(plan.scale(), 25'000, 1);
+    }
+}
+
+TEST(Sheet, HasAScaleOfTwoFiguresOnPaper) {
+    const auto scene = filled("usual", 8000, 6000).scene;
+    auto paper = usual;
+    paper.is_on_paper = true;
+    const double as_large_as_fits = MapPlan{scene, {}, usual}.scale();
+    const double scale = MapPlan{scene, {}, paper}.scale();
+    EXPECT_NEAR(scale, 1000 * std::round(scale / 1000), 1); // here of five digits
+    EXPECT_GE(scale, as_large_as_fits - 1);
+    EXPECT_LT(scale, 1.1 * as_large_as_fits);
+}
+
+TEST(Sheet, GivesTheLegendAStripWhereRoadsAreAllOverAndAround) {
+    auto city = sheet(4000, 3000);
+    for (double north_m = -4500; north_m <= 4500; north_m += 150) {
+        city.lines.push_back(street(at(-6000, north_m), at(6000, north_m)));
+    }
+    MapPlan plan{city, {}, usual};
+    std::vector<std::uint8_t> rgb;
+    plan.draw([&](auto rows) { rgb.insert(rgb.end(), rows.begin(), rows.end()); });
+    TypeSetter setter;
+    const auto layout = layout_of(city, usual, setter);
+    const auto legend = legend_of(city, {}, classes_of({}));
+    EXPECT_TRUE(placement_of(city, legend, layout, setter).hides_roads);
+    const auto strip = legend_strip(legend, layout, setter);
+    const auto page = palette(MapStyle::Theme::light).page;
+    const auto x = std::size_t(layout.map.right) - 20;
+    for (const double y : {strip.map.bottom + 20, layout.map.bottom - 20}) {
+        const auto i = 3 * (std::size_t(y) * 1600 + x);
+        EXPECT_EQ(std::uint32_t{rgb[i]} << 16U | std::uint32_t{rgb[i + 1]} << 8U | rgb[i + 2],
+                  page);
+    }
 }
 
 TEST(Sheet, KeepsItsUsualShapeWhereThatSuitsTheData) {
@@ -143,13 +226,31 @@ TEST(Sheet, BeginsTheBandBesideAThinMapWithTheLegend) {
     EXPECT_LT(band->corner.y, layout.map.top + 30);
 }
 
-TEST(Sheet, PutsTheLegendOnFreeGroundWhereABackgroundRunsOn) {
+TEST(Sheet, PutsTheLegendOnFreeGroundRatherThanMakingTheMapSmaller) {
+    TypeSetter setter;
     const auto tall = filled("thin tall", 4000, 20'000).scene;
-    MapPlan plan{tall, {}, usual};
-    const auto band_x = plan.place().left; // of the map beside the band
-    plan.set_background({{BackgroundTile{{14, 8920, 5690}, {}}}, {}});
-    plan.set_roads(tall.lines);
-    EXPECT_LT(plan.place().left, band_x); // the map takes the whole width again
+    const auto layout = layout_of(tall, usual, setter);
+    const auto placement = placement_of(tall, legend_of(tall, {}, classes_of({})), layout, setter);
+    EXPECT_FALSE(placement.makes_map_smaller);
+    EXPECT_FALSE(placement.hides_roads);
+    EXPECT_EQ(placement.frame.centre.x, 800); // the map keeps the whole width
+}
+
+TEST(Sheet, PutsTheLegendAtAnEdgeWhereTheCornersHaveRoads) {
+    TypeSetter setter;
+    auto scene = sheet(8000, 6000);
+    for (const double east_m : {-3500, 3500}) {
+        for (const double north_m : {-2500, 2500}) {
+            scene.lines.push_back(
+                street(at(east_m - 400, north_m), at(east_m + 400, north_m + 200)));
+        }
+    }
+    const auto layout = layout_of(scene, usual, setter);
+    const auto placement =
+        placement_of(scene, legend_of(scene, {}, classes_of({})), layout, setter);
+    EXPECT_FALSE(placement.makes_map_smaller);
+    EXPECT_FALSE(placement.hides_roads);
+    EXPECT_GT(placement.corner.y, layout.map.top + 150);
 }
 
 TEST(Sheet, PutsAWideLegendWhereOnlyAFlatStripIsFree) {

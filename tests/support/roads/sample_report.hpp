@@ -91,6 +91,7 @@ inline Report changed_town() {
     ReportChange change{.since = "2026-03-15",
                         .change = {},
                         .colours = {0x2c7bb6, 0xfee090, 0xd7191c},
+                        .dark_colours = {0x2c7bb6, 0xfee090, 0xd7191c},
                         .worse = {},
                         .better = {},
                         .map = {{1, 2}, {3}, 1400, 1050},
