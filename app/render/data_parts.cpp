@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -22,6 +24,90 @@ constexpr std::size_t max_parts = 4;
 
 double diagonal_m(const GeoBox& box) {
     return distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
+}
+
+constexpr int cells_per_side = 6;     // of an area's shorter side
+constexpr double min_share = 1.0 / 3; // of the first area's measured length
+constexpr double max_cells = 4e6;
+
+/// Lengths in square cells on the ground, row by row from the south-west.
+struct LengthGrid {
+    int columns, rows;
+    double cell_m;
+    std::vector<double> length_m;
+
+    double& at(int column, int row) {
+        return length_m[std::size_t(row) * std::size_t(columns) + std::size_t(column)];
+    }
+};
+
+/// Area in cells.
+struct Area {
+    int column, row, columns, rows;
+};
+
+/// Returns the area with the greatest sum. Source of the running sums: F. C. Crow, "Summed-area
+/// tables for texture mapping", SIGGRAPH 1984.
+std::pair<Area, double> fullest_area(LengthGrid& grid, int columns, int rows) {
+    std::vector<double> sums(std::size_t(grid.columns + 1) * std::size_t(grid.rows + 1));
+    const auto sum = [&](int column, int row) -> double& {
+        return sums[std::size_t(row) * std::size_t(grid.columns + 1) + std::size_t(column)];
+    };
+    for (int row = 0; row < grid.rows; ++row) {
+        for (int column = 0; column < grid.columns; ++column) {
+            sum(column + 1, row + 1) = grid.at(column, row) + sum(column, row + 1) +
+                                       sum(column + 1, row) - sum(column, row);
+        }
+    }
+    std::pair<Area, double> best{{0, 0, columns, rows}, -1};
+    for (int row = 0; row + rows <= grid.rows; ++row) {
+        for (int column = 0; column + columns <= grid.columns; ++column) {
+            const double inside = sum(column + columns, row + rows) - sum(column, row + rows) -
+                                  sum(column + columns, row) + sum(column, row);
+            if (inside > best.second) {
+                best = {{column, row, columns, rows}, inside};
+            }
+        }
+    }
+    return best;
+}
+
+/// Moves an area so that what is measured in it lies around its middle.
+GeoBox centred(const GeoBox& area, const std::vector<MeasuredLength>& measured) {
+    GeoBox inside;
+    for (const auto& each : measured) {
+        if (contains(area, each.at)) {
+            inside = including(inside, each.at);
+        }
+    }
+    if (is_empty(inside)) {
+        return area;
+    }
+    const double half_width_deg = (area.east_deg - area.west_deg) / 2;
+    const double half_height_deg = (area.north_deg - area.south_deg) / 2;
+    const double lon_deg = (inside.west_deg + inside.east_deg) / 2;
+    const double lat_deg = (inside.south_deg + inside.north_deg) / 2;
+    return {.west_deg = lon_deg - half_width_deg,
+            .south_deg = lat_deg - half_height_deg,
+            .east_deg = lon_deg + half_width_deg,
+            .north_deg = lat_deg + half_height_deg};
+}
+
+/// Sorts areas from west to east, or from north to south if they lie rather so.
+void sort_for_reading(std::vector<GeoBox>& areas) {
+    GeoBox all;
+    for (const auto& area : areas) {
+        all = including(all, {area.north_deg, area.west_deg});
+    }
+    if (is_empty(all)) {
+        return;
+    }
+    const GeoPoint north_west{all.north_deg, all.west_deg};
+    const bool is_row = distance_m(north_west, {all.north_deg, all.east_deg}) >
+                        distance_m(north_west, {all.south_deg, all.west_deg});
+    std::ranges::sort(areas, [&](const GeoBox& a, const GeoBox& b) {
+        return is_row ? a.west_deg < b.west_deg : a.north_deg > b.north_deg;
+    });
 }
 
 } // namespace
@@ -81,6 +167,78 @@ void set_insets(const StoreReader& store, const SegmentFilter& filter, MapScene&
         if (inset.name.empty()) { // something that the overview can repeat
             inset.name = char('A' + int(i) - 1);
         }
+    }
+}
+
+std::vector<GeoBox> densest_areas(const std::vector<MeasuredLength>& measured,
+                                  const GeoBox& box,
+                                  const DetailRoom& room) {
+    const GeoPoint south_west{box.south_deg, box.west_deg};
+    const double middle_deg = (box.south_deg + box.north_deg) / 2;
+    const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
+    const double height_m = distance_m(south_west, {box.north_deg, box.west_deg});
+    const double lon_deg_per_m = (box.east_deg - box.west_deg) / std::max(1.0, width_m);
+    const double lat_deg_per_m = (box.north_deg - box.south_deg) / std::max(1.0, height_m);
+
+    const double cell_m = std::min(room.width_m, room.height_m) / cells_per_side;
+    const auto cells = [&](double length_m) { return std::max(1, int(length_m / cell_m + 0.5)); };
+    if (!(width_m / cell_m * (height_m / cell_m) < max_cells)) {
+        return {};
+    }
+    const int columns = cells(room.width_m);
+    const int rows = cells(room.height_m);
+    LengthGrid grid{.columns = std::max(columns, cells(width_m)),
+                    .rows = std::max(rows, cells(height_m)),
+                    .cell_m = cell_m,
+                    .length_m = {}};
+    grid.length_m.resize(std::size_t(grid.columns) * std::size_t(grid.rows));
+    for (const auto& [at, length_m] : measured) {
+        const double x_m = (at.lon_deg - box.west_deg) / lon_deg_per_m;
+        const double y_m = (at.lat_deg - box.south_deg) / lat_deg_per_m;
+        grid.at(std::clamp(int(x_m / cell_m), 0, grid.columns - 1),
+                std::clamp(int(y_m / cell_m), 0, grid.rows - 1)) += length_m;
+    }
+    std::vector<GeoBox> areas;
+    double first_m = 0;
+    while (areas.size() < room.count) {
+        const auto [area, inside_m] = fullest_area(grid, columns, rows);
+        first_m = areas.empty() ? inside_m : first_m;
+        if (inside_m <= 0 || inside_m < min_share * first_m) {
+            break;
+        }
+        for (int row = area.row; row < area.row + rows; ++row) {
+            for (int column = area.column; column < area.column + columns; ++column) {
+                grid.at(column, row) = -first_m; // no other area may overlap
+            }
+        }
+        const double west_deg = box.west_deg + area.column * cell_m * lon_deg_per_m;
+        const double south_deg = box.south_deg + area.row * cell_m * lat_deg_per_m;
+        areas.push_back(centred({.west_deg = west_deg,
+                                 .south_deg = south_deg,
+                                 .east_deg = west_deg + room.width_m * lon_deg_per_m,
+                                 .north_deg = south_deg + room.height_m * lat_deg_per_m},
+                                measured));
+    }
+    sort_for_reading(areas);
+    return areas;
+}
+
+void set_details(const StoreReader& store,
+                 const SegmentFilter& filter,
+                 const DetailRoom& room,
+                 MapScene& scene) {
+    std::vector<MeasuredLength> measured;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        const auto& segment = record.segment;
+        if (!segment.line.empty()) {
+            measured.push_back(
+                {segment.line[segment.line.size() / 2], segment.to_m - segment.from_m});
+        }
+    });
+    for (const auto& area : densest_areas(measured, scene.box, room)) {
+        scene.insets.push_back({.box = area,
+                                .name = place_in(store, area),
+                                .scale_denominator = room.scale_denominator});
     }
 }
 

@@ -7,7 +7,6 @@
 #include "app/render/box_visit.hpp"
 #include "app/render/data_parts.hpp"
 #include "app/render/line_collector.hpp"
-#include "app/render/map_details.hpp"
 #include "estimator/common/error.hpp"
 #include "render/map/sheet_shape.hpp"
 #include "storage/store/reader/store_background.hpp"

@@ -1,6 +1,6 @@
 #include "render/map/map_labels.hpp"
 
-#include "render/map/map_insets.hpp"
+#include "render/map/sheet/map_insets.hpp"
 #include "render/roads/map_generalisation.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/labels/label_placement.hpp"
-#include "render/map/map_surround.hpp"
+#include "render/map/sheet/map_surround.hpp"
 #include "render/roads/line_widths.hpp"
 
 #include <functional>

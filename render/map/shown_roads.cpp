@@ -1,6 +1,6 @@
 #include "render/map/shown_roads.hpp"
 
-#include "render/map/legend_placement.hpp"
+#include "render/map/sheet/legend_placement.hpp"
 #include "render/roads/line_joining.hpp"
 #include "render/roads/map_generalisation.hpp"
 #include "render/roads/road_painter.hpp"

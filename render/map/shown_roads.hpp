@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/map/layout.hpp"
+#include "render/map/sheet/layout.hpp"
 #include "render/roads/line_widths.hpp"
 #include "render/roads/road_polylines.hpp"
 #include "render/scene/scene.hpp"

@@ -1,6 +1,6 @@
 #include "app/render/change_map.hpp"
 
-#include "render/map/legend.hpp"
+#include "render/map/sheet/legend.hpp"
 #include "render/scene/colour.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/files/files.hpp"

@@ -1,6 +1,6 @@
 #include "app/render/knowledge_map.hpp"
 
-#include "render/map/legend.hpp"
+#include "render/map/sheet/legend.hpp"
 #include "render/scene/colour.hpp"
 #include "render/scene/colour_difference.hpp"
 #include "storage/store/road_store.hpp"

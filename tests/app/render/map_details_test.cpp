@@ -1,4 +1,4 @@
-#include "app/render/map_details.hpp"
+#include "app/render/data_parts.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 #include "render/map/map_plan.hpp"
 
 #include "estimator/common/error.hpp"
-#include "render/map/map_surround.hpp"
+#include "render/map/sheet/map_surround.hpp"
 #include "render/scene/colour.hpp"
 
 #include <gmock/gmock.h>

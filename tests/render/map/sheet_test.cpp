@@ -1,6 +1,6 @@
-#include "render/map/legend.hpp"
-#include "render/map/legend_placement.hpp"
 #include "render/map/map_plan.hpp"
+#include "render/map/sheet/legend.hpp"
+#include "render/map/sheet/legend_placement.hpp"
 #include "render/map/sheet_shape.hpp"
 #include "render/scene/colour.hpp"
 

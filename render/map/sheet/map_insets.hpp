@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/canvas/canvas.hpp"
-#include "render/map/layout.hpp"
+#include "render/map/sheet/layout.hpp"
 #include "render/scene/colour.hpp"
 
 #include <optional>

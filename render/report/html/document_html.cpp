@@ -1,6 +1,6 @@
 #include "render/report/document/html.hpp"
 #include "render/report/document/page_assets.hpp"
-#include "render/report/drawing_html.hpp"
+#include "render/report/html/drawing_html.hpp"
 #include "render/report/report.hpp"
 
 #include "estimator/common/utf8.hpp"

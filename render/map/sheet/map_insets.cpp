@@ -1,6 +1,6 @@
-#include "render/map/map_insets.hpp"
+#include "render/map/sheet/map_insets.hpp"
 
-#include "render/map/legend.hpp"
+#include "render/map/sheet/legend.hpp"
 #include "render/projection/projection.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "render/report/drawing_html.hpp"
+#include "render/report/html/drawing_html.hpp"
 
 #include "render/report/document/html.hpp"
 

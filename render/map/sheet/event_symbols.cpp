@@ -1,4 +1,4 @@
-#include "render/map/event_symbols.hpp"
+#include "render/map/sheet/event_symbols.hpp"
 
 #include <algorithm>
 

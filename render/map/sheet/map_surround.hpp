@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/map/layout.hpp"
-#include "render/map/legend_placement.hpp"
+#include "render/map/sheet/layout.hpp"
+#include "render/map/sheet/legend_placement.hpp"
 
 namespace macadam {
 

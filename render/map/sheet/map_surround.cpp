@@ -1,4 +1,4 @@
-#include "render/map/map_surround.hpp"
+#include "render/map/sheet/map_surround.hpp"
 
 #include "render/scene/scale_bar.hpp"
 

@@ -1,6 +1,6 @@
-#include "render/map/legend.hpp"
+#include "render/map/sheet/legend.hpp"
 
-#include "render/map/event_symbols.hpp"
+#include "render/map/sheet/event_symbols.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "render/map/legend_placement.hpp"
+#include "render/map/sheet/legend_placement.hpp"
 
 #include "mapping/geometry/line_clipping.hpp"
 

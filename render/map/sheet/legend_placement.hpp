@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/map/layout.hpp"
-#include "render/map/legend.hpp"
+#include "render/map/sheet/layout.hpp"
+#include "render/map/sheet/legend.hpp"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "render/map/layout.hpp"
+#include "render/map/sheet/layout.hpp"
 
 #include <algorithm>
 #include <cmath>
