@@ -157,6 +157,8 @@ public:
         }
     }
 
+    const std::vector<SegmentRange>& ranges() const { return changed_; }
+
     bool touch(const SegmentKey& first, const SegmentKey& last) const {
         const auto next = std::ranges::lower_bound(changed_, first, {}, last_of);
         return next != changed_.end() && first_of(*next) <= last;
@@ -212,6 +214,14 @@ void update_compare_files(const StoreReader& store,
         auto& changed = files[compare_file(record)];
         changed = changed || changes.touch(key, key);
     }
+    SegmentFilter without_values; // segments that may have lost theirs
+    without_values.with_state_only = false;
+    without_values.ranges = changes.ranges();
+    store.visit(without_values, [&](const SegmentRecord& record) {
+        if (const auto file = files.find(compare_file(record)); file != files.end()) {
+            file->second = true;
+        }
+    });
     std::map<std::string, std::vector<SegmentRecord>> to_write;
     for (const auto& record : records) {
         if (auto name = compare_file(record); files.at(name)) {

@@ -107,7 +107,15 @@ bool has(const std::vector<SegmentRange>& sorted, const SegmentKey& key) {
 }
 
 /// Segments that were read again, by tile; tiles where they lie but show nothing are empty.
-using NewSegments = std::map<TileId, std::vector<TileSegment>>;
+struct NewSegments {
+    std::map<TileId, std::vector<TileSegment>> by_tile;
+    bool is_border_free = false; ///< a segment at an edge of the source's box has no value
+};
+
+bool touches_edge(const GeoBox& box, const GeoPoint& point) {
+    return point.lon_deg == box.west_deg || point.lon_deg == box.east_deg ||
+           point.lat_deg == box.south_deg || point.lat_deg == box.north_deg;
+}
 
 NewSegments read_again(const StoreReader& store,
                        const std::vector<SegmentRange>& ranges,
@@ -122,12 +130,16 @@ NewSegments read_again(const StoreReader& store,
         if (record.state) {
             const auto segment = intake.segment(record);
             each_source_tile(segment.line,
-                             [&](const TileId& tile) { found[tile].push_back(segment); });
+                             [&](const TileId& tile) { found.by_tile[tile].push_back(segment); });
             return;
         }
+        found.is_border_free = found.is_border_free ||
+                               std::ranges::any_of(record.segment.line, [&](const GeoPoint& point) {
+                                   return touches_edge(source.box, point);
+                               });
         std::vector<WorldPoint> line;
         std::ranges::transform(record.segment.line, std::back_inserter(line), world_point);
-        each_source_tile(line, [&](const TileId& tile) { found.try_emplace(tile); });
+        each_source_tile(line, [&](const TileId& tile) { found.by_tile.try_emplace(tile); });
     };
     store.visit(filter, take, StateDetail::tiles);
     return found;
@@ -136,20 +148,12 @@ NewSegments read_again(const StoreReader& store,
 constexpr auto key_of = [](const TileSegment& segment) { return segment.state.segment; };
 
 /// Bytes of a tile with new segments in place of those of the ranges.
-///
-/// \param fresh  in the order of keys
-/// \returns `std::nullopt` if one of the ranges is no longer there.
-std::optional<std::string> replaced(std::string_view before,
-                                    const std::vector<SegmentRange>& ranges,
-                                    std::vector<TileSegment> fresh) {
+std::string replaced(std::string_view before,
+                     const std::vector<SegmentRange>& ranges,
+                     std::vector<TileSegment> fresh) {
     auto segments = tile_segments_in(before);
     const auto stale = std::ranges::stable_partition(
         segments, [&](const TileSegment& each) { return !has(ranges, key_of(each)); });
-    for (const auto& each : stale) {
-        if (!std::ranges::binary_search(fresh, key_of(each), {}, key_of)) {
-            return std::nullopt;
-        }
-    }
     segments.erase(stale.begin(), stale.end());
     std::ranges::move(fresh, std::back_inserter(segments));
     std::ranges::sort(segments, {}, key_of);
@@ -158,6 +162,19 @@ std::optional<std::string> replaced(std::string_view before,
         append_to(after, each);
     }
     return after;
+}
+
+GeoBox box_of_measured(const StoreReader& store, const Progress& progress) {
+    GeoBox box;
+    SegmentFilter filter;
+    filter.with_state_only = true;
+    store.visit_summaries(filter, [&](const SegmentSummary& segment) {
+        expect_not_stopped(progress);
+        for (const auto& point : segment.line) {
+            box = including(box, point);
+        }
+    });
+    return box;
 }
 
 } // namespace
@@ -194,16 +211,17 @@ std::optional<std::vector<TileId>> update_tile_source(const StoreReader& store,
     }
     sort(ranges);
     std::vector<TileId> changed;
-    for (auto& [tile, segments] : read_again(store, ranges, source, progress)) {
+    auto found = read_again(store, ranges, source, progress);
+    for (auto& [tile, segments] : found.by_tile) {
         const auto before = source.segments.read(tile);
         const auto after = replaced(before, ranges, std::move(segments));
-        if (!after) {
-            return std::nullopt;
-        }
-        if (*after != before) {
-            source.segments.put(tile, *after);
+        if (after != before) {
+            source.segments.put(tile, after);
             changed.push_back(tile);
         }
+    }
+    if (found.is_border_free) {
+        source.box = box_of_measured(store, progress);
     }
     source.segments.compact();
     return changed;

@@ -48,8 +48,7 @@ void read_tile_source(const StoreReader& store,
 ///
 /// \param ranges  of all segments with a new value; they do not overlap
 /// \returns       tiles whose segments changed, in order; `std::nullopt`, with a source that is of
-///                no more use, if they are too many for this to pay, or one has lost its value: the
-///                box is then unknown.
+///                no more use, if they are too many for this to pay.
 /// \throws InputError  on a stop request.
 std::optional<std::vector<TileId>> update_tile_source(const StoreReader& store,
                                                       std::vector<SegmentRange> ranges,

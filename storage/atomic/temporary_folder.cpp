@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <ctime>
 #include <string_view>
 #include <system_error>
 
@@ -129,6 +130,18 @@ std::vector<Leftover> leftovers_of(const fs::path& made) {
     }
     std::ranges::sort(found, {}, &Leftover::name);
     return found;
+}
+
+void remove_leftovers_of(const fs::path& made) {
+    constexpr std::time_t least_age_s = 60;
+    for (const auto& leftover : leftovers_of(made)) {
+        struct stat status {};
+        if (::lstat(leftover.name.c_str(), &status) == 0 && status.st_uid == ::geteuid() &&
+            std::time(nullptr) - status.st_ctime >= least_age_s) {
+            std::error_code stays;
+            fs::remove_all(leftover.name, stays);
+        }
+    }
 }
 
 bool is_temporary_name(const fs::path& name) {

@@ -13,10 +13,11 @@ std::vector<std::int64_t> rows_of(Statement& select) {
     return rows;
 }
 
+constexpr int beyond_audit = 40; // bits
+
 } // namespace
 
 StoreVersion moment_of(Database& database) {
-    constexpr int beyond_audit = 40; // bits
     const auto select = fmt::format(
         "SELECT coalesce(max(id), 0) + coalesce((SELECT CAST(value AS INTEGER) << {} FROM meta"
         " WHERE key = '{}'), 0) FROM audit WHERE what <> 'import'",
@@ -24,6 +25,24 @@ StoreVersion moment_of(Database& database) {
         late_trips_key);
     return {database.number(select.c_str()),
             database.number("SELECT coalesce(max(id), 0) FROM main.trip")};
+}
+
+bool only_forgot(Database& database, const StoreVersion& before, const StoreVersion& now) {
+    if (now.maintenance >> beyond_audit != 0 || now.maintenance <= before.maintenance) {
+        return false;
+    }
+    auto others = database.prepare(
+        "SELECT count(*) FROM main.audit WHERE id > ? AND what <> 'import'"
+        " AND (what <> 'forget' OR detail LIKE '%calibrated%')"); // as forget() words it
+    return others.bind(before.maintenance).step() && others.integer(0) == 0;
+}
+
+std::vector<std::int64_t> chunks_changed_from(Database& database, std::int64_t audit) {
+    auto select = database.prepare(
+        "SELECT DISTINCT segment.strip FROM main.state_change AS change CROSS JOIN segment"
+        " ON segment.fid = change.segment WHERE change.audit >= ? ORDER BY 1");
+    select.bind(audit);
+    return rows_of(select);
 }
 
 std::int64_t count_of_maps(Database& database) {

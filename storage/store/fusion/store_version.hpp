@@ -19,6 +19,14 @@ struct StoreVersion {
 
 StoreVersion moment_of(Database& database);
 
+/// Tests whether what was done between two versions besides imports is the forgetting of trips
+/// alone, which left the cars' calibration as it was; of a database that is not a server's copy.
+bool only_forgot(Database& database, const StoreVersion& before, const StoreVersion& now);
+
+/// Chunks with values that changed under an entry of the audit or a later one, in the order of
+/// their rows; also where trips are gone.
+std::vector<std::int64_t> chunks_changed_from(Database& database, std::int64_t audit);
+
 /// Number of times that the roads or their background were replaced. It tells nothing of trips.
 std::int64_t count_of_maps(Database& database);
 

@@ -28,6 +28,19 @@ std::vector<SegmentRange> ranges_of(Database& database,
     return ranges;
 }
 
+/// Chunks in which trips have come or gone; `std::nullopt` after other maintenance.
+std::optional<std::vector<std::int64_t>>
+changed_chunks(Database& database, const StoreMoment& before, const StoreMoment& now) {
+    const StoreVersion then{before.maintenance, before.last_trip};
+    if (now.maintenance != before.maintenance) {
+        return only_forgot(database, then, {now.maintenance, now.last_trip})
+                   ? std::optional{chunks_changed_from(database, before.last_audit)}
+                   : std::nullopt;
+    }
+    return now.last_trip < before.last_trip ? std::nullopt
+                                            : std::optional{chunks_driven_since(database, then)};
+}
+
 } // namespace
 
 std::shared_ptr<const void> StoreReader::hold() const {
@@ -52,6 +65,7 @@ StoreMoment StoreReader::moment() const {
         const auto [maintenance, last_trip] = moment_of(database);
         moment.maintenance = maintenance;
         moment.last_trip = last_trip;
+        moment.last_audit = database.number("SELECT coalesce(max(id), 0) FROM main.audit");
         moment.waiting_chunks = dirty_chunks(database);
     }
     return moment;
@@ -62,17 +76,18 @@ StoreReader::changed_since(const StoreMoment& before) const {
     auto& database = store_->database;
     const Transaction one_moment{database, Transaction::Kind::read};
     const auto now = moment();
-    if (now.published_alone != before.published_alone || now.maintenance != before.maintenance ||
-        now.last_trip < before.last_trip ||
-        (now.published_alone && now.publication != before.publication)) {
+    if (now.published_alone != before.published_alone) {
         return std::nullopt;
     }
     std::vector<std::int64_t> chunks;
-    if (!now.published_alone) {
-        std::ranges::set_union(
-            chunks_driven_since(database, {before.maintenance, before.last_trip}),
-            before.waiting_chunks,
-            std::back_inserter(chunks));
+    if (now.published_alone) {
+        if (now.maintenance != before.maintenance || now.publication != before.publication) {
+            return std::nullopt;
+        }
+    } else if (const auto changed = changed_chunks(database, before, now)) {
+        std::ranges::set_union(*changed, before.waiting_chunks, std::back_inserter(chunks));
+    } else {
+        return std::nullopt;
     }
     return ranges_of(database, chunks, store_->segments_per_chunk());
 }

@@ -8,6 +8,7 @@
 #include "support/files/files.hpp"
 #include "support/roads/store_world.hpp"
 #include "support/roads/tile_town.hpp"
+#include "support/roads/town.hpp"
 
 #include <gtest/gtest.h>
 
@@ -193,6 +194,44 @@ TEST(TileMaker, FollowsADatabaseAsTripsComeAndGo) {
     expect_same(*after, *made_anew());
     EXPECT_GT(maker.made(), 0U);
     EXPECT_FALSE(tiles_of(*before) == tiles_of(*after)); // and the earlier set still answers
+}
+
+TEST(TileMaker, MakesAfterForgottenTripsOnlyTheTilesThatShowedThem) {
+    const auto folder = test_folder();
+    const auto roads = made_up_town(14);
+    auto store = RoadStore::create(folder / "a.gpkg", roads, {});
+    const auto keys = keys_of(roads);
+    ASSERT_GT(keys.size(), 2000U);
+    const auto import_drive = [&](int number, std::size_t from, std::size_t past) {
+        auto pass = passes_of(number).front();
+        std::vector<Pass> passes;
+        for (auto i = from; i < past; ++i) {
+            pass.segment = keys[i];
+            pass.iri_um = static_cast<IriUm>(900 + 37 * i % 2000);
+            passes.push_back(pass);
+        }
+        ASSERT_TRUE(add_trip(store, trip_record(number), passes));
+        store.importer.refresh();
+    };
+    import_drive(0, 0, keys.size() - 100);
+    import_drive(1, 700, 760);                       // over what is known
+    import_drive(2, keys.size() - 100, keys.size()); // alone, to the end of the town
+    TileMaker maker{folder / "tiles"};
+    const auto all = maker.make(store, "all", {});
+    for (const int number : {1, 2}) {
+        ASSERT_TRUE(maker.can_update(store));
+        ForgetRequest request;
+        request.trips = {trip_record(number).trip_id};
+        store.maintenance.forget(request);
+        if (number == 2) { // its row is given to another trip
+            import_drive(3, 100, 130);
+        }
+        ASSERT_TRUE(maker.can_update(store));
+        expect_same(*maker.make(store, "less", {}),
+                    *TileMaker{folder / "tiles"}.make(store, "new", {}));
+        EXPECT_GT(maker.made(), 0U);
+        EXPECT_LT(maker.made(), all->count() / 2) << number;
+    }
 }
 
 TEST(TileMaker, FollowsABackgroundThatComesLater) {

@@ -126,4 +126,18 @@ TripLog recorded(const RoadNetwork& roads,
     return trip;
 }
 
+std::vector<SegmentKey> keys_of(const RoadNetwork& roads) {
+    std::vector<SegmentKey> keys;
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
+        for (const bool forward : {true, false}) {
+            if (const auto edge = edge_of(LinkId{i}, forward); is_drivable(roads, edge)) {
+                for (const auto& segment : segments_of(roads, edge)) {
+                    keys.push_back(segment.key);
+                }
+            }
+        }
+    }
+    return keys;
+}
+
 } // namespace macadam::testing

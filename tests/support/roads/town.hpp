@@ -2,6 +2,7 @@
 
 #include "estimator/common/trip.hpp"
 #include "mapping/network/road_network.hpp"
+#include "mapping/network/segment.hpp"
 
 #include <cstdint>
 #include <random>
@@ -15,6 +16,9 @@ inline constexpr GeoPoint town_corner{59.3, 18.0};
 /// streets, a fifth of them oneway. Always the same.
 /// \param corner  south-west corner
 RoadNetwork made_up_town(int side, const GeoPoint& corner = town_corner);
+
+/// Keys of all segments that may be driven, link by link.
+std::vector<SegmentKey> keys_of(const RoadNetwork& roads);
 
 struct Journey {
     std::vector<EdgeId> edges;
