@@ -1,0 +1,123 @@
+#include "app/http/static_folder.hpp"
+
+#include "app/http/http_server.hpp"
+#include "support/files/files.hpp"
+#include "support/http/http_client.hpp"
+#include "support/http/text_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace macadam::testing {
+namespace {
+
+/// Server of a folder with a file beside it that nobody may read.
+struct FileWorld {
+    FileWorld() {
+        written(folder, "site/index.html", "<html>");
+        written(folder, "site/a/roads.pmtiles", "0123456789");
+        written(folder, "site/.hidden", "no");
+        written(folder, "secret.txt", "no");
+        std::filesystem::create_symlink(folder / "secret.txt", folder / "site/link.txt");
+        HttpHandlers made;
+        made.answer = [site = folder / "site"](const HttpRequest& request, std::size_t) {
+            return file_response(site, request.path).value_or(http_problem(404, "none"));
+        };
+        server.emplace(text_config(), made);
+    }
+    std::filesystem::path folder = test_folder();
+    std::optional<HttpServer> server;
+};
+
+TEST(StaticFolder, ServesFilesWithTheirTypes) {
+    const FileWorld world;
+    const auto page = get(world.server->port(), "/");
+    EXPECT_EQ(page.body, "<html>");
+    EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
+    EXPECT_EQ(page.headers.at("accept-ranges"), "bytes");
+}
+
+TEST(StaticFolder, SendsAFileThatIsRemovedMeanwhile) {
+    const auto folder = test_folder();
+    HttpHandlers made;
+    made.answer = [&](const HttpRequest& request, std::size_t) {
+        written(folder, "page.html", "<html>");
+        auto response = file_response(folder, request.path).value_or(http_problem(404, "none"));
+        std::filesystem::remove(folder / "page.html");
+        return response;
+    };
+    const HttpServer server{text_config(), made};
+    EXPECT_EQ(get(server.port(), "/page.html").body, "<html>");
+}
+
+TEST(StaticFolder, ServesRangesOfFiles) {
+    const FileWorld world;
+    const auto range = [&](const std::string& of) {
+        return get(world.server->port(), "/a/roads.pmtiles", "Range: bytes=" + of + "\r\n");
+    };
+    EXPECT_EQ(range("2-4").status, 206);
+    EXPECT_EQ(range("2-4").body, "234");
+    EXPECT_EQ(range("2-4").headers.at("content-range"), "bytes 2-4/10");
+    EXPECT_EQ(range("7-").body, "789");
+    EXPECT_EQ(range("-2").body, "89");
+    EXPECT_EQ(range("8-99").body, "89");
+    EXPECT_EQ(range("10-").status, 416);
+    EXPECT_EQ(range("10-").headers.at("content-range"), "bytes */10");
+    EXPECT_EQ(range("4-2").status, 200);
+    EXPECT_EQ(range("0-1,3-4").status, 200);
+    EXPECT_EQ(range("18446744073709551616-").status, 200);
+}
+
+TEST(StaticFolder, SendsRangesOfTheSameFileAlone) {
+    const FileWorld world;
+    const auto port = world.server->port();
+    const auto etag = get(port, "/a/roads.pmtiles").headers.at("etag");
+    EXPECT_EQ(
+        get(port, "/a/roads.pmtiles", "Range: bytes=0-1\r\nIf-Range: " + etag + "\r\n").status,
+        206);
+    EXPECT_EQ(get(port, "/a/roads.pmtiles", "Range: bytes=0-1\r\nIf-Range: \"old\"\r\n").status,
+              200);
+}
+
+TEST(StaticFolder, LeadsFromFoldersToTheirPages) {
+    const FileWorld world;
+    const auto moved = get(world.server->port(), "/a");
+    EXPECT_EQ(moved.status, 308);
+    EXPECT_EQ(moved.headers.at("location"), "a/");
+}
+
+TEST(StaticFolder, ServesNothingOutside) {
+    const FileWorld world;
+    for (const std::string_view path : {"/../secret.txt",
+                                        "/%2e%2e/secret.txt",
+                                        "/a/../../secret.txt",
+                                        "/a/%2e%2e/%2e%2e/secret.txt",
+                                        "/..%2fsecret.txt",
+                                        "/..%5csecret.txt",
+                                        "/a/..\\..\\secret.txt",
+                                        "//etc/passwd",
+                                        "/%2fetc/passwd",
+                                        "/link.txt",
+                                        "/.hidden",
+
+                                        "/a/",
+                                        "/./index.html",
+                                        "/a//roads.pmtiles",
+                                        "/index.html/",
+                                        "/index.html/x",
+                                        "/%252e%252e/secret.txt",
+                                        "/a/roads.pmtiles/..",
+                                        "/proc/self/environ",
+                                        "/....//secret.txt",
+                                        "/%c0%ae%c0%ae/secret.txt"}) {
+        EXPECT_EQ(get(world.server->port(), path).status, 404) << path;
+    }
+}
+
+} // namespace
+} // namespace macadam::testing
