@@ -73,10 +73,14 @@ MonthsOfSegments months_of(const StoreReader& store,
 
 // -------------------------------------------------------------------------------------- months
 
-std::string compare_file(const SegmentRecord& record) {
+/// Tile to whose file a segment belongs.
+TileId compare_tile(const SegmentRecord& record) {
     const auto place = tile_position(record.segment.line.front(), compare_zoom);
-    return fmt::format(
-        "months/{}/{}/{}.json", compare_zoom, static_cast<int>(place.x), static_cast<int>(place.y));
+    return {compare_zoom, static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y)};
+}
+
+std::string compare_file(const TileId& tile) {
+    return fmt::format("months/{}/{}/{}.json", tile.zoom, tile.x, tile.y);
 }
 
 /// Files with the months of the segments of each tile, for the comparison of two.
@@ -86,26 +90,26 @@ public:
         : folder_{&folder}, months_{&months} {}
 
     void add(std::span<const SegmentRecord> records, const MonthsOfSegments& found) {
-        std::map<std::string, std::string> texts;
+        std::map<TileId, std::string> texts;
         for (const auto& record : records) {
             const auto months = found.find(record.segment.key);
             if (months == found.end()) {
                 continue;
             }
-            auto name = compare_file(record);
-            auto& text = texts[name];
-            text += begun_.insert(std::move(name)).second ? "{" : ",\n";
+            const auto tile = compare_tile(record);
+            auto& text = texts[tile];
+            text += begun_.insert(tile).second ? "{" : ",\n";
             text += fmt::format(
                 "{}:{}", json_text(name_of(record.segment.key)), months_json(months->second));
         }
-        for (const auto& [name, text] : texts) {
-            folder_->write(name, text, std::ios::app);
+        for (const auto& [tile, text] : texts) {
+            folder_->write(compare_file(tile), text, std::ios::app);
         }
     }
 
     void finish() const {
-        for (const auto& name : begun_) {
-            folder_->write(name, "}", std::ios::app);
+        for (const auto& tile : begun_) {
+            folder_->write(compare_file(tile), "}", std::ios::app);
         }
     }
 
@@ -123,7 +127,7 @@ private:
 
     const SiteFolder* folder_;
     const std::vector<std::string>* months_;
-    std::set<std::string> begun_;
+    std::set<TileId> begun_;
 };
 
 // ------------------------------------------------------------------------------------- changes
@@ -208,34 +212,34 @@ void update_compare_files(const StoreReader& store,
                           const std::vector<std::string>& months,
                           const SiteFolder& folder,
                           const Changes& changes) {
-    std::map<std::string, bool> files; // those that change
+    std::map<TileId, bool> tiles; // those that change
     for (const auto& record : records) {
         const auto& key = record.segment.key;
-        auto& changed = files[compare_file(record)];
+        auto& changed = tiles[compare_tile(record)];
         changed = changed || changes.touch(key, key);
     }
     SegmentFilter without_values; // segments that may have lost theirs
     without_values.with_state_only = false;
     without_values.ranges = changes.ranges();
     store.visit(without_values, [&](const SegmentRecord& record) {
-        if (const auto file = files.find(compare_file(record)); file != files.end()) {
-            file->second = true;
+        if (const auto tile = tiles.find(compare_tile(record)); tile != tiles.end()) {
+            tile->second = true;
         }
     });
-    std::map<std::string, std::vector<SegmentRecord>> to_write;
+    std::map<TileId, std::vector<SegmentRecord>> to_write;
     for (const auto& record : records) {
-        if (auto name = compare_file(record); files.at(name)) {
-            to_write[std::move(name)].push_back(record);
+        if (const auto tile = compare_tile(record); tiles.at(tile)) {
+            to_write[tile].push_back(record);
         }
     }
     CompareFiles compare{folder, months};
-    for (const auto& [name, of_tile] : to_write) {
+    for (const auto& [tile, of_tile] : to_write) {
         compare.add(of_tile, months_of(store, filter, of_tile, months));
     }
     compare.finish();
-    for (const auto& [name, changed] : files) {
+    for (const auto& [tile, changed] : tiles) {
         if (!changed) {
-            changes.take_compare_file(name, folder);
+            changes.take_compare_file(compare_file(tile), folder);
         }
     }
 }

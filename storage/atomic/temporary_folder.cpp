@@ -132,7 +132,7 @@ std::vector<Leftover> leftovers_of(const fs::path& made) {
     return found;
 }
 
-void remove_leftovers_of(const fs::path& made) {
+void remove_old_leftovers_of(const fs::path& made) {
     constexpr std::time_t least_age_s = 60;
     for (const auto& leftover : leftovers_of(made)) {
         struct stat status {};

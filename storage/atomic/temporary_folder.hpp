@@ -49,7 +49,7 @@ std::vector<Leftover> leftovers_of(const std::filesystem::path& made);
 
 /// Removes what killed programs of this user left beside and inside `made`, except what is younger
 /// than a minute: its program may be about to mark it as in use. What cannot be removed stays.
-void remove_leftovers_of(const std::filesystem::path& made);
+void remove_old_leftovers_of(const std::filesystem::path& made);
 
 /// Tests whether a name is that of an unfinished file or folder.
 bool is_temporary_name(const std::filesystem::path& name);

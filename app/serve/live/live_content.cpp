@@ -59,7 +59,7 @@ std::shared_ptr<const TemporaryFolder> LiveContent::page() const {
 }
 
 void LiveContent::work(const std::stop_token& stop) {
-    remove_leftovers_of(beside()); // of a server that was killed
+    remove_old_leftovers_of(beside()); // of a server that was killed
     std::string made;
     Made whole, update; // the last of each kind
     while (true) {
