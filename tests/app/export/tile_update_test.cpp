@@ -230,7 +230,7 @@ TEST(TileMaker, MakesAfterForgottenTripsOnlyTheTilesThatShowedThem) {
         expect_same(*maker.make(store, "less", {}),
                     *TileMaker{folder / "tiles"}.make(store, "new", {}));
         EXPECT_GT(maker.made(), 0U);
-        EXPECT_LT(maker.made(), all->count() / 2) << number;
+        EXPECT_LT(maker.made(), all->count()) << number; // of a town as wide as a tile of zoom 14
     }
 }
 
