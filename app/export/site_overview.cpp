@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -80,17 +82,23 @@ std::optional<GeoBox> write_first_pictures(const StoreReader& store,
     request.style.classes = class_table(store.settings().class_table);
     request.style.left_hand_traffic = left_hand;
     request.style.labels = false;
+    request.subtitle = ""; // they have none
     const auto progress = console.progress("drawing");
-    const auto draw = [&](std::string_view name, MapStyle::Theme theme, std::uint32_t ground) {
-        request.style.theme = theme;
-        request.style.colours.ground = ground;
+    const auto draw = [&](std::string_view name, MapScene scene, MapStyle style) {
         const PictureOutput output{
             .file = folder / name, .size = first_size, .bare = true, .crs = {}};
-        write_picture(load_map(store, request), output, "", progress, [] {});
+        write_picture(
+            MapPlan{std::move(scene), std::move(style), first_size}, output, "", progress, [] {});
     };
     const bool drawn = is_drawn(progress, console, [&] {
-        draw("first_light.png", MapStyle::Theme::light, 0xeef1f3); // --ground of web/src/site.css
-        draw("first_dark.png", MapStyle::Theme::dark, 0x10161c);
+        auto plan = load_map(store, request); // once: themes differ in colours alone
+        auto style = plan.style();
+        style.theme = MapStyle::Theme::light;
+        style.colours.ground = 0xeef1f3; // --ground of web/src/site.css
+        draw("first_light.png", plan.scene(), style);
+        style.theme = MapStyle::Theme::dark;
+        style.colours.ground = 0x10161c;
+        draw("first_dark.png", std::move(plan).scene(), style);
     });
     return drawn ? request.filter.box : std::nullopt;
 }

@@ -129,9 +129,10 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
     if (request.filter.box) {
         scene.box = *request.filter.box;
         const auto empty = empty_map_text(store);
-        scene.subtitle = empty.empty()
-                             ? with_selection(request.subtitle.value_or(period_text(store.seen())))
-                             : subtitle_of_empty_map(store);
+        scene.subtitle =
+            !empty.empty()
+                ? subtitle_of_empty_map(store)
+                : with_selection(request.subtitle ? *request.subtitle : period_text(store.seen()));
         return scene;
     }
     if (selects(request.filter) || request.subtitle) {
