@@ -93,10 +93,12 @@ std::string served_tiles(std::string_view place, const std::string& version) {
 }
 
 SiteSources file_sources(const SitePlan& plan) {
-    const auto sharded = [](const std::string& name) {
+    const auto version = // those of two versions must not be mixed
+        plan.served_version.empty() ? std::string{} : "?v=" + plan.served_version;
+    const auto sharded = [&](const std::string& name) {
         return JsonObject{}
-            .add("index", name + "/index.json")
-            .add("url", name + "/{shard}.json")
+            .add("index", name + "/index.json" + version)
+            .add("url", name + "/{shard}.json" + version)
             .text();
     };
     JsonObject tiles;
@@ -111,7 +113,7 @@ SiteSources file_sources(const SitePlan& plan) {
             .segments = sharded("segments"),
             .names = sharded("names"),
             .compare = JsonObject{}
-                           .add("url", "months/{z}/{x}/{y}.json")
+                           .add("url", "months/{z}/{x}/{y}.json" + version)
                            .add("zoom", std::int64_t{compare_zoom})
                            .text()};
 }

@@ -57,6 +57,8 @@ std::string_view http_reason(int status) {
         return "Not Acceptable";
     case 409:
         return "Conflict";
+    case 410:
+        return "Gone";
     case 411:
         return "Length Required";
     case 413:

@@ -116,6 +116,19 @@ bool wants_map(const HttpRequest& request) {
            accept.find("text/html") < accept.find("json");
 }
 
+/// Returns a file of the page; of its data, which may be asked for by its version, none of another.
+std::optional<HttpResponse> page_file(const LivePage& page, const HttpRequest& request) {
+    const auto version = request.parameter("v");
+    if (version && *version != page.version) {
+        return http_problem(410, "the map has changed since this page was opened");
+    }
+    auto response = file_response(page.place(), request.path);
+    if (response && version) {
+        response->cache_control = "public, max-age=31536000, immutable";
+    }
+    return response;
+}
+
 /// Returns a file of the recorder, which is there before the first map; `std::nullopt` if it is
 /// none.
 std::optional<HttpResponse> recorder_file(const std::string& path) {
@@ -133,7 +146,7 @@ std::optional<HttpResponse> recorder_file(const std::string& path) {
 
 HttpResponse answer_reading(Pages& pages, const ApiContext& context) {
     if (const auto page = wants_map(context.request) ? pages.live.page() : nullptr) {
-        if (auto response = file_response(page->path() / "site", "/")) {
+        if (auto response = file_response(page->place(), "/")) {
             response->headers.emplace_back("Vary", "Accept");
             return *std::move(response);
         }
@@ -163,7 +176,7 @@ HttpResponse answer_reading(Pages& pages, const ApiContext& context) {
         return response;
     }
     if (const auto page = pages.live.page()) {
-        if (auto response = file_response(page->path() / "site", context.request.path)) {
+        if (auto response = page_file(*page, context.request)) {
             return *std::move(response);
         }
     } else if (auto response = recorder_file(context.request.path)) {

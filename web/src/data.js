@@ -60,29 +60,42 @@ export const folded = (text) => text.toLowerCase().replace(/ß/g, 'ss').replace(
 
 export async function openSite() {
   const site = await once('site.json');
+
+  // Reads by the addresses of `site`; where a server has a newer version by now, by its addresses.
+  async function latest(read) {
+    try {
+      return await read();
+    } catch (failure) {
+      if (failure.status !== 410) throw failure;
+      cache.clear();
+      Object.assign(site, await once('site.json'));
+      return read();
+    }
+  }
+
   return {
     site,
     words: (language) => once(`words/${language}.json`),
     worst: () => once(site.worst),
     totals: () => once(site.totals),
 
-    async segment(id) {
+    segment: (id) => latest(async () => {
       const key = parseId(id);
       if (!key) return null;
       const { index, url } = site.segments;
       if (!index) return once(url.replace('{id}', encodeURIComponent(id)), null);
       const shard = shardOf(await once(index), (first) => order(parseId(first), key) > 0);
       return shard < 0 ? null : (await once(url.replace('{shard}', shard)))[id] ?? null;
-    },
+    }),
 
     // All segments, file by file; of a server, those of its list.
     async* segments() {
-      const { index, url } = site.segments;
-      const shards = (await once(index)).length;
+      const shards = (await latest(() => once(site.segments.index))).length;
+      const { url } = site.segments;
       for (let shard = 0; shard < shards; ++shard) yield Object.values(await ask(url.replace('{shard}', shard)));
     },
 
-    async names(start, most = 12) {
+    names: (start, most = 12) => latest(async () => {
       const begin = folded(start);
       const { index, url } = site.names;
       if (!index) return (await once(url.replace('{text}', encodeURIComponent(begin)))).slice(0, most);
@@ -94,8 +107,8 @@ export async function openSite() {
         if (names.length > 0 && names.at(-1).key > begin && !names.at(-1).key.startsWith(begin)) break;
       }
       return found.slice(0, most);
-    },
+    }),
 
-    months: (x, y) => once(site.compare.url.replace('{z}', site.compare.zoom).replace('{x}', x).replace('{y}', y), {}),
+    months: (x, y) => latest(() => once(site.compare.url.replace('{z}', site.compare.zoom).replace('{x}', x).replace('{y}', y), {})),
   };
 }

@@ -53,7 +53,7 @@ std::shared_ptr<const TileSet> LiveContent::tiles() const {
     return tiles_;
 }
 
-std::shared_ptr<const TemporaryFolder> LiveContent::page() const {
+std::shared_ptr<const LivePage> LiveContent::page() const {
     const std::lock_guard lock{mutex_};
     return page_;
 }
@@ -156,25 +156,25 @@ void LiveContent::make_page(const StoreReader& store,
     auto moment = store.moment(); // what is committed from now on is made again the next time
     std::optional<EarlierSite> earlier;
     if (auto changed = before ? store.changed_since(before->moment) : std::nullopt) {
-        EarlierSite site{before->folder->path() / "site", before->segments, *std::move(changed)};
+        EarlierSite site{before->page->place(), before->segments, *std::move(changed)};
         earlier = std::move(site);
     }
-    auto folder = std::make_shared<const TemporaryFolder>(beside());
+    auto page = std::make_shared<const LivePage>(beside(), version);
     auto segments =
         export_site(store,
                     {},
-                    folder->path() / "site",
+                    page->place(),
                     {.title = file_.stem().string(),
                      .left_hand = false,
                      .tiles = {.min_zoom = TileSet::min_zoom, .max_zoom = TileSet::max_zoom},
                      .served_version = version,
                      .earlier = earlier ? &*earlier : nullptr},
                     Console{Verbosity::quiet, stop});
-    MadePage made{folder, std::move(moment), std::move(segments)};
+    MadePage made{page, std::move(moment), std::move(segments)};
     made_page_ = std::move(made);
     const std::lock_guard lock{mutex_};
     if (!was_dropped_) {
-        page_ = std::move(folder);
+        page_ = std::move(page);
     }
 }
 

@@ -18,8 +18,20 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace macadam {
+
+/// Web page of one version of a database, with its data.
+struct LivePage {
+    LivePage(const std::filesystem::path& beside, std::string its_version)
+        : folder{beside}, version{std::move(its_version)} {}
+
+    std::filesystem::path place() const { return folder.path() / "site"; }
+
+    TemporaryFolder folder;
+    std::string version;
+};
 
 /// Content made in the background from a whole version of the database: its tiles, and the web
 /// page with its data. Until a newer version is made, the one before is shown. After imports, what
@@ -41,7 +53,7 @@ public:
     std::shared_ptr<const TileSet> tiles() const;
 
     /// Latest page; null until there is one, and in a build without it.
-    std::shared_ptr<const TemporaryFolder> page() const;
+    std::shared_ptr<const LivePage> page() const;
 
 private:
     void work(const std::stop_token& stop);
@@ -57,7 +69,7 @@ private:
     TileMaker tile_maker_; ///< of the thread, as are those below
     std::uint64_t file_number_ = 0;
     struct MadePage {
-        std::shared_ptr<const TemporaryFolder> folder;
+        std::shared_ptr<const LivePage> page;
         StoreMoment moment;
         SiteSegments segments;
     };
@@ -67,7 +79,7 @@ private:
     bool published_alone_ = false; ///< of the wanted version
     bool was_dropped_ = false;     ///< and is to be made again at once
     std::shared_ptr<const TileSet> tiles_;
-    std::shared_ptr<const TemporaryFolder> page_;
+    std::shared_ptr<const LivePage> page_;
     std::condition_variable_any asked_;
     std::jthread thread_;
 };
