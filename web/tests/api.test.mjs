@@ -4,15 +4,16 @@ import Ajv from 'ajv';
 import fc from 'fast-check';
 import { createConfig, lintFromString } from '@redocly/openapi-core';
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { cpSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { Agent, get } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { openSite } from '../src/data.js';
 import { served } from './served.mjs';
-import { simulated } from './simulated.mjs';
+import { macadam, simulated } from './simulated.mjs';
 
-let api, server, folder, url;
+let api, server, folder, url, database;
 const problem = { type: 'object', required: ['title', 'status', 'detail'], properties: { title: { type: 'string' }, status: { type: 'integer' }, detail: { type: 'string' } } };
 const agent = new Agent({ keepAlive: true, maxSockets: 4 });
 
@@ -26,7 +27,8 @@ const ask = (target) => new Promise((resolve, reject) => {
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'macadam-api-'));
-  server = await served(process.env.MACADAM_WEB_DATABASE ?? simulated(folder));
+  database = process.env.MACADAM_WEB_DATABASE ?? simulated(folder);
+  server = await served(database);
   url = server.url;
   api = JSON.parse((await ask('/api')).body);
 }, { timeout: 110_000 });
@@ -98,5 +100,33 @@ describe('the API', { timeout: 110_000 }, () => {
     const config = await createConfig({ extends: ['minimal'] });
     const problems = await lintFromString({ source: JSON.stringify(api), config });
     assert.deepEqual(problems.filter(({ severity }) => severity === 'error').map(({ message, location }) => `${message} ${location[0]?.pointer}`), []);
+  });
+});
+
+describe('the data of a page that was opened before a change', { timeout: 110_000 }, () => {
+  test('is that of one version, the newer one from the next question on', async () => {
+    const copies = join(folder, 'changing');
+    for (const file of readdirSync(join(database, '..')).filter((name) => /^roads\.gpkg/.test(name) && !/wal|shm|uploads/.test(name))) cpSync(join(database, '..', file), join(copies, file));
+    const copy = join(copies, 'roads.gpkg');
+    const live = await served(copy);
+    const { fetch: ask } = globalThis;
+    globalThis.fetch = (path) => ask(new URL(path, live.url)); // as relative to a page
+    try {
+      await live.waitFor('/site.json');
+      const { site, segment } = await openSite();
+      const { digest, segments: { index } } = site;
+      macadam('forget', copy, '--trip', readdirSync(join(folder, 'fleet/trips'))[0]);
+      while ((await (await fetch('/site.json')).json()).digest === digest) await new Promise((resolve) => { setTimeout(resolve, 200); });
+      assert.equal((await fetch(`/${index}`)).status, 410);
+      const left = JSON.parse(macadam('query', copy, '--bbox', '-180,-90,180,90', '--json')).filter(({ passes }) => passes > 0);
+      assert.ok(left.length > 100);
+      for (const one of left.filter((_, i) => i % 50 === 0)) assert.equal((await segment(one.segment)).passes, one.passes, one.segment);
+      assert.notEqual(site.digest, digest);
+      const answer = await fetch(`/${site.segments.index}`);
+      assert.match(answer.headers.get('Cache-Control'), /immutable/);
+    } finally {
+      globalThis.fetch = ask;
+      live.close();
+    }
   });
 });

@@ -1,11 +1,11 @@
 import assert from 'node:assert/strict';
-import { copyFileSync, existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { after, before, describe, test } from 'node:test';
 import { join } from 'node:path';
 import { addFeatures, newNetwork, routeAlong } from '../src/network.js';
 import { served } from './served.mjs';
-import { macadam, world } from './browser.mjs';
+import { world } from './browser.mjs';
 
 let town;
 before(async () => { town = await world(); }, { timeout: 110_000 });
@@ -493,23 +493,6 @@ describe('the page', { timeout: 380_000 }, () => {
     await changed(() => page.keyboard.press('ArrowRight'));
     await changed(() => page.getByRole('button', { name: 'Zoom in' }).click());
     assert.deepEqual(await opened.breaches(), []);
-    await opened.close();
-    live.close();
-  });
-
-  test('shows the values of a server as they are now where the page was opened before a change', async () => {
-    const copy = join(town.folder, 'changing.gpkg');
-    for (const end of ['', '.key', '-network']) if (existsSync(town.database + end)) copyFileSync(town.database + end, copy + end);
-    const live = await served(copy);
-    await live.waitFor('/site.json');
-    const opened = await town.page('/', { url: live.url });
-    const before = await (await fetch(`${live.url}/site.json`)).json();
-    macadam('forget', copy, '--trip', readdirSync(join(town.folder, 'fleet/trips'))[0], '--quiet');
-    while ((await (await fetch(`${live.url}/site.json`)).json()).digest === before.digest) await new Promise((resolve) => { setTimeout(resolve, 200); });
-    assert.equal((await fetch(`${live.url}/${before.segments.index}`)).status, 410);
-    await opened.page.locator('#worst-1 button').click();
-    await opened.page.waitForSelector('.drawer dl');
-    opened.wrong.splice(0); // the browser's own words on the answer 410
     await opened.close();
     live.close();
   });
