@@ -118,7 +118,8 @@ bool wants_map(const HttpRequest& request) {
 
 /// Returns a file of the page; of its data, which may be asked for by its version, none of another.
 std::optional<HttpResponse> page_file(const LivePage& page, const HttpRequest& request) {
-    const auto version = request.parameter("v");
+    const bool is_data = request.path.ends_with(".json"); // scripts have versions of their own
+    const auto version = is_data ? request.parameter("v") : std::nullopt;
     if (version && *version != page.version) {
         return http_problem(410, "the map has changed since this page was opened");
     }
