@@ -6,7 +6,6 @@
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/sqlite/sqlite_header_check.hpp"
 #include "storage/store/fusion/store_version.hpp"
-#include "storage/store/server/reader/server_mirror.hpp"
 
 #include <fmt/format.h>
 

@@ -13,11 +13,10 @@ std::vector<std::int64_t> rows_of(Statement& select) {
     return rows;
 }
 
-constexpr int beyond_audit = 40; // bits
-
 } // namespace
 
 StoreVersion moment_of(Database& database) {
+    constexpr int beyond_audit = 40; // bits
     const auto select = fmt::format(
         "SELECT coalesce(max(id), 0) + coalesce((SELECT CAST(value AS INTEGER) << {} FROM meta"
         " WHERE key = '{}'), 0) FROM audit WHERE what <> 'import'",
@@ -28,7 +27,9 @@ StoreVersion moment_of(Database& database) {
 }
 
 bool only_forgot(Database& database, const StoreVersion& before, const StoreVersion& now) {
-    if (now.maintenance >> beyond_audit != 0 || now.maintenance <= before.maintenance) {
+    auto copied = database.prepare("SELECT count(*) FROM main.meta WHERE key = ?");
+    if (now.maintenance <= before.maintenance || !copied.bind(mirror_moment_key).step() ||
+        copied.integer(0) != 0) {
         return false;
     }
     auto others = database.prepare(

@@ -33,6 +33,10 @@ std::int64_t count_of_maps(Database& database);
 /// Row of table meta: number of times that trips were added below the last one.
 inline constexpr const char* late_trips_key = "late_trips";
 
+/// Row of table meta of a kept copy of a database on a server, that changes whenever its content
+/// does.
+inline constexpr const char* mirror_moment_key = "copied_snapshot";
+
 /// Chunks with passes or traces of trips added since `before`, in the order of their rows. For
 /// versions with the same `maintenance`.
 std::vector<std::int64_t> chunks_driven_since(Database& database, const StoreVersion& before);

@@ -13,9 +13,6 @@ namespace macadam {
 // $XDG_CACHE_HOME/macadam/copies/ of mode 0600. A copy follows new trips and fusion by what changed
 // in between; after anything else, and on another timeline of the server, it is made anew.
 
-/// Row of table meta of such a copy that changes whenever its content does.
-inline constexpr const char* mirror_moment_key = "copied_snapshot";
-
 /// Brings the copy of a database up to date, or makes it. Processes of one user take turns.
 ///
 /// \returns its file, and beside it the key if this user has it.
