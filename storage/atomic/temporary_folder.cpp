@@ -137,7 +137,7 @@ void remove_old_leftovers_of(const fs::path& made) {
     for (const auto& leftover : leftovers_of(made)) {
         struct stat status {};
         if (::lstat(leftover.name.c_str(), &status) == 0 && status.st_uid == ::geteuid() &&
-            std::time(nullptr) - status.st_ctime >= least_age_s) {
+            std::time(nullptr) - status.st_mtime >= least_age_s) {
             std::error_code stays;
             fs::remove_all(leftover.name, stays);
         }

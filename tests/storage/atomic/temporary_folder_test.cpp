@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <set>
 
 #include <sys/stat.h>
@@ -54,6 +55,31 @@ TEST(TemporaryFolder, IsOfItsOwnerAloneAndHasANameThatNobodyForesees) {
     struct stat status {};
     ASSERT_EQ(::stat(one.path().c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777U, 0700U);
+}
+
+TEST(TemporaryFolder, LeftByAKilledProgramGoesOnceItIsOldAndNobodyUsesIt) {
+    const auto folder = test_folder();
+    const auto age = [&](const fs::path& each) {
+        fs::last_write_time(each, fs::file_time_type::clock::now() - std::chrono::minutes{2});
+    };
+    do_and_die([&] {
+        for (int i = 0; i < 2; ++i) {
+            new TemporaryFolder{folder / "a"};
+        }
+    });
+    const auto left = names_in(folder);
+    ASSERT_EQ(left.size(), 2U);
+    written(folder / left[0] / "tiles/8", "1.json", "{}");
+    age(folder / left[0]);
+    written(folder, "b.part-0123456789ab/x", "of another");
+    age(folder / "b.part-0123456789ab");
+    const TemporaryFolder used{folder / "a"};
+    age(used.path());
+    remove_old_leftovers_of(folder / "a");
+    EXPECT_FALSE(fs::exists(folder / left[0]));
+    EXPECT_TRUE(fs::exists(folder / left[1])); // too young
+    EXPECT_TRUE(fs::exists(folder / "b.part-0123456789ab"));
+    EXPECT_TRUE(fs::exists(used.path()));
 }
 
 TEST(TemporaryFolder, OfANameAsLongAsTheSystemTakesFits) {
