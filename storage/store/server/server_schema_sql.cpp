@@ -25,13 +25,11 @@ CREATE UNIQUE INDEX segment_key ON macadam.segment (cell, way_id, direction, seq
 CREATE INDEX drive_of_trip ON macadam.drive (trip);
 CREATE INDEX event_of_trip ON macadam.event (trip);
 CREATE INDEX way_name ON macadam.way (name);
-CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms);
 COMMENT ON INDEX macadam.segment_geom IS 'Segments by place';
 COMMENT ON INDEX macadam.segment_key IS 'Segments by key';
 COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
 COMMENT ON INDEX macadam.event_of_trip IS 'Defects of a trip, to forget it';
 COMMENT ON INDEX macadam.way_name IS 'Roads by name';
-COMMENT ON INDEX macadam.chunk_dirty_since IS 'Oldest mark of a chunk to be fused';
 )";
 
 // The same as drive_body.cpp reads. Differences wrap around there; in sound passes none does.
@@ -229,9 +227,7 @@ BEGIN
         UPDATE macadam.chunk_dirty SET trip = 0;
         ALTER TABLE macadam.chunk_dirty ALTER COLUMN trip SET DEFAULT 0, DROP CONSTRAINT chunk_dirty_pkey,
             ADD PRIMARY KEY (chunk, trip);
-        DROP INDEX macadam.chunk_dirty_since;
-        CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms);
-        COMMENT ON INDEX macadam.chunk_dirty_since IS 'Oldest mark of a chunk to be fused';
+        DROP INDEX macadam.chunk_dirty_since; -- old marks come first, young ones are few
         COMMENT ON COLUMN macadam.chunk_dirty.trip IS 'Row of the trip that brought drives, 0: another cause; who fused removes the rows that he read before the drives, so that none is lost';
         COMMENT ON COLUMN macadam.chunk_dirty.since_ms IS 'Time of the mark, ms since 1970 UTC';
     END IF;
