@@ -175,12 +175,14 @@ public:
         return double(side) + std::clamp(along, 0.0, 1.0);
     }
 
-    /// Appends the way from one course to another along the border of the room, clockwise.
+    /// Appends the way from one course to another along the border of the room, clockwise; nothing
+    /// for a short way along one side, on which the sea ends.
     void append(Line& line, double from, double to) const {
-        if (from == to) {
+        constexpr double min_width = 0.25; // of the side: narrower water would go on as a stripe
+        const double end = to < from ? to + 4 : to;
+        if (std::floor(from) == std::floor(end) && end - from < min_width) {
             return;
         }
-        const double end = to < from ? to + 4 : to;
         line.push_back(outside(from));
         for (double corner = std::floor(from) + 1; corner < end; ++corner) {
             line.push_back(corner_of(int(corner) % 4));

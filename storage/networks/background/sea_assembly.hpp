@@ -21,7 +21,8 @@ struct Sea {
 ///
 /// Within the extract's bounds the coastlines and parts of the border make up its rings. A coast
 /// that ends up to a quarter of the width inside of the bounds, as where an extract follows a
-/// country's border, makes them narrower. Beyond the bounds the sea goes on as at their edge.
+/// country's border, makes them narrower. Beyond the bounds the sea goes on as at their edge
+/// where it takes a quarter of a side or more; narrower water, as of a harbour, ends there.
 ///
 /// \param coast   ways with natural=coastline, in any order, each in its own direction; points that
 ///                the file lacks, NodePositions::nowhere, are gaps

@@ -127,6 +127,14 @@ TEST_F(RenderProgram, WritesAMapOnPaper) {
     EXPECT_THAT(output_of(folder_, "pdftotext " + out("map.pdf") + " -"), HasSubstr("Lyon"));
 }
 
+TEST_F(RenderProgram, StatesItsScaleOnPaper) {
+    for (const auto* scale : {"25000", "1:25000"}) {
+        expect_done({"-o", out("map.pdf"), "--scale", scale});
+        EXPECT_THAT(output_of(folder_, "pdftotext " + out("map.pdf") + " -"),
+                    HasSubstr("1:25,000"));
+    }
+}
+
 TEST_F(RenderProgram, GoesOnOverTheAntimeridian) {
     auto ways = road_art("A---B C---D", 5, {"AB", "CD"}).ways; // of Viti Levu and of Lau
     ways[0].line = {{-17, 179.8}, {-17.01, 179.8}};
@@ -170,6 +178,13 @@ TEST_F(RenderProgram, SaysWhatIsWrongAndLeavesNothing) {
         {{"-o", "OUT/a.pdf", "--size", "A4", "--paper", "A4"},
          2,
          "--paper and --size cannot be combined"},
+        {{"-o", "OUT/a.png", "--scale", "1:many"},
+         2,
+         "--scale is '1:many', expected 100 to 100000000, such as 25000 or 1:25000"},
+        {{"-o", "OUT/a.png", "--scale", "99"}, 2, "--scale is '99', expected 100 to"},
+        {{"-o", "OUT/a.png", "--scale", "25000", "--bare"},
+         2,
+         "--scale and --bare cannot be combined"},
         {{"-o", "OUT/a.png", "--size", "large"}, 2, "--size is 'large', expected pixels such as"},
         {{"-o", "OUT/a.png", "--size", "A0", "--dpi", "1200"},
          2,

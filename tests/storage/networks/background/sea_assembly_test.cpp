@@ -85,6 +85,14 @@ TEST(SeaAssembly, LiesOnTheRightOfACoastAcrossTheBoundsAndGoesOnBeyondThem) {
     EXPECT_FALSE(is_sea(sea, {10.9, 10.9}));
 }
 
+TEST(SeaAssembly, EndsAtTheBoundsWhereItIsNarrow) {
+    const std::vector<PlacedWay> harbour{coast(1, {{4.5, -1}, {4.5, 3}, {5, 3}, {5, -1}})};
+    const auto sea = assemble_sea(harbour, bounds, room);
+    EXPECT_FALSE(sea.is_broken);
+    EXPECT_TRUE(is_sea(sea, {4.75, 0.1}));
+    EXPECT_FALSE(is_sea(sea, {4.75, -0.1}));
+}
+
 TEST(SeaAssembly, JoinsWaysInAnyOrder) {
     const std::vector<PlacedWay> coasts{coast(20, {{6, 5}, {11, 5}}),
                                         coast(1, {{-1, 5}, {3, 5}}, 10),
