@@ -54,7 +54,7 @@ class Templates:
                            " FROM macadam.drive ORDER BY trip, cell, chunk, drive")
             for trip, *drive in cursor.fetchall():
                 self.drives.setdefault(trip, []).append(drive)
-            cursor.execute("TRUNCATE macadam.trip, macadam.audit, macadam.segment_state, macadam.chunk_state,"
+            cursor.execute("TRUNCATE macadam.trip, macadam.drive, macadam.audit, macadam.segment_state, macadam.chunk_state,"
                            " macadam.chunk_dirty CASCADE")
         connection.commit()
 

@@ -375,6 +375,12 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
     queue().run("DROP TABLE macadam.job_trip, macadam.job, macadam.worker,"
                 " macadam.work_setting, macadam.chunk_change;"
                 " ALTER TABLE macadam.trip DROP COLUMN changed, DROP COLUMN trimmed_mm;"
+                " ALTER TABLE macadam.drive ADD FOREIGN KEY (trip) REFERENCES macadam.trip;"
+                " ALTER TABLE macadam.chunk_dirty RENAME COLUMN trip TO marks;"
+                " ALTER TABLE macadam.chunk_dirty ALTER COLUMN marks SET DEFAULT 1,"
+                " DROP CONSTRAINT chunk_dirty_pkey, ADD PRIMARY KEY (chunk);"
+                " CREATE INDEX chunk_dirty_since ON macadam.chunk_dirty (since_ms, chunk);"
+                " INSERT INTO macadam.chunk_dirty (chunk, since_ms) VALUES (7, 0);"
                 " DELETE FROM macadam.migration WHERE number > 1");
     EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
                 AllOf(HasSubstr("its schema is of version 1, expected 6"),
@@ -384,6 +390,11 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
     expect_server_schema(queue());
     EXPECT_THAT(submit_logs(queue(), logs(1)), SizeIs(1));
     EXPECT_EQ(queue().number("SELECT coalesce(sum(trimmed_mm), 0) FROM macadam.trip"), 0);
+    queue().run("INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms) VALUES (7, 3, 0)");
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.chunk_dirty WHERE trip IN (0, 3)"), 2);
+    EXPECT_EQ(queue().number("SELECT count(*) FROM pg_constraint WHERE contype = 'f'"
+                             " AND conrelid = 'macadam.drive'::regclass"),
+              0);
 }
 
 TEST_F(JobQueue, IsSearchedByItsIndexes) {
