@@ -18,7 +18,7 @@ void warn_if_open(const std::filesystem::path& key_file, const Console& console)
 
 void warn_of_open_key(const StoreReader& store, const Console& console) {
     if (store.is_operator()) {
-        warn_if_open(key_file_of(store.file()), console);
+        warn_if_open(store.key_file(), console);
     }
 }
 

@@ -34,16 +34,27 @@ StoreInfo create_store(const std::filesystem::path& store,
     const TemporaryFolder folder{std::filesystem::temp_directory_path() / "macadam"};
     const auto file = folder.path() / "roads.gpkg";
     const auto info = RoadStore::create(file, roads, settings, progress).info();
-    warn_of_superuser(copy_to_server(file, store.string(), {}, console.progress("copying")),
-                      console);
+    warn_of_server(copy_to_server(file, store.string(), {}, console.progress("copying")),
+                   store.string(),
+                   console);
     return info;
 }
 
-void warn_of_superuser(const StoreCopy& copy, const Console& console) {
+void warn_of_server(const StoreCopy& copy, const std::string& address, const Console& console) {
     if (copy.by_superuser) {
         console.warn("connected as a superuser of the server: a role that owns its database is "
                      "enough");
     }
+    if (copy.is_activity_open) {
+        warn_of_open_activity(address, console);
+    }
+}
+
+void warn_of_open_activity(const std::string& address, const Console& console) {
+    console.warn(fmt::format("{}: whoever may connect sees in statistics and locks of the server "
+                             "how many trips come in, and where; a superuser hides these with "
+                             "'macadam privacy postgresql://SUPERUSER@HOST/DATABASE crowd'",
+                             address));
 }
 
 RoadStore opened_store(const std::filesystem::path& file, const Console& console) {

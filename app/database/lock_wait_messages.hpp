@@ -7,6 +7,7 @@
 #include "storage/store/server/reader/server_reader.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace macadam {
 
@@ -14,8 +15,12 @@ namespace macadam {
 /// other process once, and Ctrl-C ends the wait.
 LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console& console);
 
-/// Warns if a copy was made by a superuser of the server.
-void warn_of_superuser(const StoreCopy& copy, const Console& console);
+/// Warns if a copy on a server was made by a superuser, or is of a crowd and the server's
+/// statistics are open.
+void warn_of_server(const StoreCopy& copy, const std::string& address, const Console& console);
+
+/// Warns that all roles of a server see what tells of a crowd's trips.
+void warn_of_open_activity(const std::string& address, const Console& console);
 
 /// Creates a database, as a file or on a server that has none.
 ///

@@ -66,7 +66,7 @@ void expect_operator(const StoreReader& store, std::string_view what) {
                                      "expected the key at {}",
                                      store.file().string(),
                                      what,
-                                     key_file_of(store.file()).string())};
+                                     store.key_file().string())};
     }
 }
 

@@ -104,11 +104,12 @@ InitOptions parse_init(const Arguments& arguments) {
         throw UsageError{"--privacy cannot be changed by --update"};
     }
     options.privacy = privacy_in(arguments);
-    if (options.privacy == PrivacyProfile::crowd && is_on_server) {
-        throw UsageError{"--privacy crowd works with a .gpkg file only so far"};
-    }
     options.max_trips_per_car_month = trip_limit_in(arguments, options);
     parse_kept_logs(arguments, options);
+    if (options.keep_logs_days > 0 && is_on_server) {
+        throw UsageError{"--keep-logs is for a .gpkg file: workers of a database on a server erase "
+                         "the logs of a crowd"};
+    }
     if (options.privacy == PrivacyProfile::crowd && is_traced) {
         throw UsageError{
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "

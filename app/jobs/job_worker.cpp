@@ -118,8 +118,15 @@ private:
         if (!store_) {
             store_.emplace(opened_for_import(work_.address, console_));
             make_missing_key(*store_->trips, console_);
+            if (is_crowd() && work_.keeps_logs) {
+                throw InputError{fmt::format("{}: is a crowd database, whose logs are erased once "
+                                             "they are worked out; expected no --keep-logs",
+                                             work_.address)};
+            }
         }
     }
+
+    bool is_crowd() const { return store_->map.settings().privacy == PrivacyProfile::crowd; }
 
     /// Takes and works out some jobs. \returns false if none waits.
     bool work_batch() {
@@ -203,10 +210,13 @@ private:
         }
     }
 
-    /// Removes logs from the object store that are imported, also those of killed workers.
+    /// Removes logs from the object store that are imported, or of a crowd and worked out, also
+    /// those of killed workers.
     void erase_done() {
-        const auto done = jobs_to_erase(
-            *queue_, 2 * max_batch, work_.keeps_logs ? ErasedLogs::forgotten : ErasedLogs::all);
+        const auto which = work_.keeps_logs ? ErasedLogs::forgotten
+                           : is_crowd()     ? ErasedLogs::worked_out
+                                            : ErasedLogs::imported;
+        const auto done = jobs_to_erase(*queue_, 2 * max_batch, which);
         if (done.empty()) {
             return;
         }

@@ -206,7 +206,11 @@ void run_serve(const Arguments& arguments, const Console& console) {
         return;
     }
     const auto store = file_or_server(arguments);
-    LocalCopy copy{store, wait_policy_for(store, console), console.progress("reading drives")};
+    // Members of the staff see more of a crowd than the publications, if the key is here.
+    LocalCopy copy{store,
+                   wait_policy_for(store, console),
+                   console.progress("reading drives"),
+                   arguments.is_given("--staff-header") ? Audience::operator_ : Audience::anyone};
     const auto& file = copy.file();
     const bool is_on_server = copy.is_of_server();
     if (is_on_server) {

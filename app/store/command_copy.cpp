@@ -52,7 +52,7 @@ void run_copy(const Arguments& arguments, const Console& console) {
     const auto progress = console.progress("copying");
     const auto copy = to_server ? copy_to_server(from, to, wait_policy_for(from, console), progress)
                                 : copy_from_server(from, to, progress);
-    warn_of_superuser(copy, console);
+    warn_of_server(copy, to, console);
     if (arguments.flag("--json")) {
         print(json_of(copy));
     } else {

@@ -1,11 +1,14 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
+#include "app/jobs/job_options.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/networks/network_file.hpp"
+#include "storage/postgres/server_address.hpp"
 #include "storage/store/connection/import_lock.hpp"
+#include "storage/store/server/reader_rights.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +24,7 @@ std::int64_t now_utc_ms() {
 }
 
 void run_publish(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
+    const auto file = file_or_server(arguments);
     auto store = opened_store(file, console);
     if (is_import_running(file)) {
         throw InputError{
@@ -38,9 +41,15 @@ void run_publish(const Arguments& arguments, const Console& console) {
         print_words(words_for(done.publication) + "\n");
     }
     console.say(fmt::format("{} new or with more passes", counted(done.changed, "segment")));
+    if (is_server_address(file.string())) {
+        auto server = opened_server(file.string());
+        if (is_activity_open(server)) {
+            warn_of_open_activity(file.string(), console);
+        }
+    }
 }
 
-constexpr std::array operands{store_operand};
+constexpr std::array operands{import_operand};
 constexpr std::array options{Option{"--json", "", "Print the publication as one JSON object."}};
 
 } // namespace

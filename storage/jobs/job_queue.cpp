@@ -242,15 +242,16 @@ void put_back_all(ServerConnection& server, const JobTaker& taker) {
 std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit, ErasedLogs which) {
     return jobs_in(
         server.rows(fmt::format("SELECT {} FROM macadam.job WHERE has_object"
-                                " AND state IN ('imported', 'known') {} ORDER BY number LIMIT $1",
+                                " AND state IN ('imported', 'known'{}) {} ORDER BY number LIMIT $1",
                                 job_columns,
+                                which == ErasedLogs::worked_out ? ", 'outside', 'refused'" : "",
                                 which == ErasedLogs::forgotten ? was_forgotten : ""),
                     {std::to_string(limit)}));
 }
 
 void note_erased(ServerConnection& server, std::span<const Job> jobs) {
     server.rows("WITH done AS (SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
-                " AND state IN ('imported', 'known') FOR UPDATE SKIP LOCKED)"
+                " AND state IN ('imported', 'known', 'outside', 'refused') FOR UPDATE SKIP LOCKED)"
                 " UPDATE macadam.job SET has_object = false FROM done"
                 " WHERE job.sha256 = done.sha256",
                 {hashes_of(jobs)});

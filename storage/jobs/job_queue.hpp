@@ -89,8 +89,9 @@ void put_back_all(ServerConnection& server, const JobTaker& taker);
 
 /// Which logs leave the object store once they are done.
 enum class ErasedLogs : std::uint8_t {
-    all,
-    forgotten ///< those with a trip that was permanently deleted
+    imported,   ///< or known
+    worked_out, ///< also those that are refused or outside the map
+    forgotten   ///< those with a trip that was permanently deleted
 };
 
 /// Jobs that are done and whose objects are still stored, at most `limit`.

@@ -70,6 +70,9 @@ bool StoreConnection::make_missing_key() {
     if (key) {
         return false;
     }
+    if (is_copy_of_server) {
+        refuse_missing_key(database.file().string(), key_file);
+    }
     Transaction alone{database, Transaction::Kind::write}; // two imports must not create two keys
     key = read_own_key(database, key_file);
     if (key) {
@@ -92,6 +95,13 @@ bool StoreConnection::make_missing_key() {
 
 std::string StoreConnection::pseudonym(const std::string& vehicle_id) const {
     return key ? key->pseudonym(vehicle_id) : unkeyed_name_of(""); // "" is the id of no car
+}
+
+void refuse_missing_key(const std::string& address, const std::filesystem::path& key_file) {
+    throw InputError{fmt::format("{}: the key of its cars is not at {}; copy it there from a "
+                                 "computer that imports into this database",
+                                 address,
+                                 key_file.string())};
 }
 
 std::shared_ptr<StoreConnection> open_connection(const std::filesystem::path& file,

@@ -39,6 +39,8 @@ struct StoreConnection {
     void expect_same_network();
 
     /// Creates a new key if there is none; see TripImporter::make_missing_key().
+    ///
+    /// \throws InputError  for a copy of a database on a server, where a new key would be lost.
     bool make_missing_key();
 
     /// Pseudonym of a car; without a key, only of "", the unknown car.
@@ -57,12 +59,17 @@ struct StoreConnection {
     StoreSettings settings;
     std::string network_hash; ///< at the time of opening
     std::filesystem::path key_file;
+    bool is_copy_of_server = false;
     std::optional<PrivacyKey> key;
     std::function<void(const Progress&)> after_write; ///< see written()
     /// Of a copy of a part of a database: times of the first and last pass of the whole.
     std::optional<ObservedPeriod> seen_in_whole{};
     bool published_alone = false; ///< see StoreReader::shows_published_alone()
 };
+
+/// Refuses to work without the key of a database on a server.
+[[noreturn]] void refuse_missing_key(const std::string& address,
+                                     const std::filesystem::path& key_file);
 
 /// Opens a database and checks that this program made it. Readers other than the operator see only
 /// the latest publication of a crowd database.

@@ -209,6 +209,7 @@ CrowdMade StoreMaintenance::make_crowd(const Progress& progress) {
         all.commit();
     }
     store_->settings = read_settings(database);
+    store_->written(progress);
     made.log_is_clean = database.checkpoint_wal();
     return made;
 }

@@ -31,7 +31,7 @@ Published StoreMaintenance::publish(const RoadNetwork& roads,
     if (!store_->key) {
         refuse(fmt::format("its key is not at {}, expected the operator's: who holds the key "
                            "publishes",
-                           key_file_of(database.file()).string()));
+                           store_->key_file.string()));
     }
     const auto month = utc_text(now_utc_ms).substr(0, month_letters);
     const auto expect_due = [&] {
@@ -64,6 +64,7 @@ Published StoreMaintenance::publish(const RoadNetwork& roads,
     auto done = staged.apply(month);
     add_audit(database, "publish", fmt::format("publication {}", done.publication.number));
     all.commit();
+    store_->written(progress);
     return done;
 }
 

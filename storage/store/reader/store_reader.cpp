@@ -31,6 +31,10 @@ const PrivacyKey* StoreReader::key() const {
     return store_->key ? &*store_->key : nullptr;
 }
 
+const std::filesystem::path& StoreReader::key_file() const {
+    return store_->key_file;
+}
+
 bool StoreReader::shows_published_alone() const {
     return store_->published_alone;
 }

@@ -53,6 +53,9 @@ public:
     /// throws InputError if the key file belongs to another database.
     const PrivacyKey* key() const;
 
+    /// Where the key is, or would be.
+    const std::filesystem::path& key_file() const;
+
     /// Tests whether there is a key. Its holder is the operator, who sees unpublished data of a
     /// crowd database.
     bool is_operator() const { return key() != nullptr; }

@@ -96,6 +96,8 @@ void put_row(CopyWriter& writer, const Statement& row, const ServerTable& table)
             writer.put(std::nullopt);
         } else if (type.starts_with("bigint")) {
             writer.put(row.integer(column));
+        } else if (type.starts_with("double")) {
+            writer.put(row.real(column));
         } else if (type.starts_with("bytea")) {
             writer.put(ServerBytes{row.blob(column)});
         } else {
@@ -113,6 +115,8 @@ void put_row(Statement& insert, const CopyRow& row, const ServerTable& table) {
             insert.bind_at(column + 1, std::nullopt);
         } else if (type.starts_with("bigint")) {
             insert.bind_at(column + 1, row.integer(column));
+        } else if (type.starts_with("double")) {
+            insert.bind_at(column + 1, row.real(column));
         } else if (type.starts_with("bytea")) {
             insert.bind_at(column + 1, Blob{row.bytes(column)});
         } else {

@@ -90,12 +90,23 @@ std::vector<Migration> migrations() {
     all.push_back({4, "changes of chunks and trips", changes_migration_sql()});
     all.push_back({5, "trips of logs", job_trip_schema()});
     all.push_back({6, "marks of each trip", marks_migration_sql});
+    all.push_back({7, "publications of crowds", publications_migration_sql()});
     return all;
+}
+
+void create_tables(ServerConnection& server, int migration) {
+    const auto postgis = postgis_schema(server);
+    for (const auto& table : server_tables()) {
+        if (table.migration == migration) {
+            server.run(table_sql(table, postgis));
+        }
+    }
 }
 
 void run_migrations_after(int version, ServerConnection& server) {
     for (const auto& [number, what, sql] : migrations()) {
         if (number > version) {
+            create_tables(server, number);
             server.run(sql);
             server.rows("INSERT INTO macadam.migration VALUES ($1, $2)",
                         {std::to_string(number), what});
@@ -152,11 +163,9 @@ void create_server_schema(ServerConnection& server) {
                                      "without one",
                                      server.address())};
     }
-    const auto postgis = postgis_schema(server);
+    static_cast<void>(postgis_schema(server)); // says what is missing
     server.run(schema_begin_sql);
-    for (const auto& table : server_tables()) {
-        server.run(table_sql(table, postgis));
-    }
+    create_tables(server, 1);
     server.run(schema_indexes_sql);
     server.run(schema_unpacking_sql);
     server.run(schema_roughness_sql);

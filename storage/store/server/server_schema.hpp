@@ -12,7 +12,7 @@
 namespace macadam {
 
 /// Number of the last migration that this program knows.
-inline constexpr int server_schema_version = 6;
+inline constexpr int server_schema_version = 7;
 
 /// Creates schema `macadam` with its tables, views, comments, rights and, as far as the role may
 /// create them, roles macadam_reader, macadam_importer and macadam_operator. Runs within the
@@ -39,6 +39,15 @@ inline constexpr const char* renew_network_rows =
 inline constexpr const char* renew_store_rows =
     "INSERT INTO macadam.meta VALUES ('store_rows', gen_random_uuid()::text)"
     " ON CONFLICT (key) DO UPDATE SET value = excluded.value";
+
+/// Statement that makes copies of publications that readers keep be made anew.
+inline constexpr const char* renew_published_rows =
+    "INSERT INTO macadam.meta VALUES ('published_rows', gen_random_uuid()::text)"
+    " ON CONFLICT (key) DO UPDATE SET value = excluded.value";
+
+/// Names of rows of table meta that are of the server, not of the content, as SQL lists them.
+inline constexpr const char* settings_of_server =
+    "'format', 'version', 'network_rows', 'store_rows', 'published_rows'";
 
 /// Schema in which PostGIS is installed, quoted.
 /// \throws InputError  if it is not.

@@ -234,4 +234,26 @@ BEGIN
 END $$;
 )";
 
+namespace {
+
+// A crowd's raw logs leave the object store whatever became of them.
+constexpr const char* publications = R"(
+CREATE INDEX published_pending_of_trip ON macadam.published_pending (trip);
+COMMENT ON INDEX macadam.published_pending_of_trip IS 'Waiting passes of a trip, to forget it';
+DROP INDEX macadam.job_to_erase;
+CREATE INDEX job_to_erase ON macadam.job (number) WHERE has_object AND state IN ('imported', 'known', 'outside', 'refused');
+COMMENT ON INDEX macadam.job_to_erase IS 'Logs that the object store may no longer need';
+INSERT INTO macadam.meta VALUES ('published_rows', gen_random_uuid()::text) ON CONFLICT (key) DO NOTHING;
+)";
+
+} // namespace
+
+std::string publications_migration_sql() {
+    const std::string tables = " ON macadam.publication, macadam.published_state,"
+                               " macadam.published_until, macadam.published_pending,"
+                               " macadam.published_figure, macadam.published_event";
+    return publications + granting("SELECT" + tables, {"macadam_importer", "macadam_operator"}) +
+           granting("INSERT, UPDATE, DELETE" + tables, {"macadam_operator"});
+}
+
 } // namespace macadam

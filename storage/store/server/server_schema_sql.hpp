@@ -21,4 +21,7 @@ std::string changes_migration_sql();
 /// Migration 6: a mark for each trip over a chunk, which nobody waits for.
 extern const char* const marks_migration_sql;
 
+/// Migration 7, once its tables are there.
+std::string publications_migration_sql();
+
 } // namespace macadam

@@ -30,9 +30,10 @@ struct ServerTable {
     const char* partition_by = nullptr; ///< column whose values each have a partition
     const char* file_table = nullptr;   ///< null: not copied row by row
     const char* file_columns = nullptr; ///< null: as on the server
+    int migration = 1;                  ///< that creates it
 };
 
-/// All tables that migration 1 creates, in an order in which references are to earlier ones.
+/// All tables of roads, trips and values, in an order in which references are to earlier ones.
 std::span<const ServerTable> server_tables();
 
 /// Names of all columns, separated by commas.

@@ -1,5 +1,6 @@
 // A database of other people's cars, from `init --privacy crowd` to what is handed on.
 
+#include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -7,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <regex>
 #include <set>
 
@@ -164,6 +166,65 @@ TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
     const auto info = run({"info", store_, "--json"}).out;
     EXPECT_THAT(info, AllOf(HasSubstr("\"published_alone\""), Not(HasSubstr("\"v-"))));
     EXPECT_THAT(run({"info", store_}).out, HasSubstr("at least 5 of 5 cars"));
+}
+
+TEST_F(Crowd, IsOnAServerWhatItIsInAFile) {
+    PostgresServer server;
+    const auto address = server.new_database("roads");
+    const auto file = store_;
+    run({"init", file, "--network", at("road.osm"), "--privacy", "crowd"});
+    EXPECT_THAT(run({"copy", file, address}).err,
+                HasSubstr("a superuser hides these with 'macadam privacy postgresql://SUPERUSER@"));
+    run({"import", file, at("trips"), "--method", "kf"});
+    write_file(folder_ / "trips" / "bad.trip.csv", "t_s,acc_z_mps2\n0,9.8\n");
+    const auto objects = at("objects");
+    run({"submit", address, at("trips"), "--objects", objects});
+    EXPECT_THAT(run({"worker", address, "--once", "--keep-logs"}, 1).err,
+                HasSubstr("is a crowd database, whose logs are erased once they are worked out"));
+    const auto worked = run({"worker", address, "--once", "--method", "kf"});
+    EXPECT_THAT(worked.out + worked.err, HasSubstr("were removed, for privacy"));
+    for (const auto& each : fs::recursive_directory_iterator{objects}) {
+        EXPECT_FALSE(each.is_regular_file()) << each.path(); // not even the one that was refused
+    }
+    const auto expect_same = [&](const std::vector<std::string>& words) {
+        auto on_server = words, in_file = words;
+        on_server.insert(on_server.begin() + 1, address);
+        in_file.insert(in_file.begin() + 1, file);
+        EXPECT_EQ(run(on_server).out, run(in_file).out) << words.front();
+    };
+    expect_same({"info", "--digest"});
+    expect_same({"publish"});
+    const auto ways_in_file = exported_ways();
+    store_ = address;
+    EXPECT_EQ(exported_ways(), ways_in_file);
+    EXPECT_THAT(ways_in_file, Not(IsEmpty()));
+    expect_same({"forget", "--vehicle-id", "car-1"});
+    expect_same({"info", "--digest"});
+    expect_same({"query", "--segment", "6+0003", "--passes", "--format", "csv"});
+    expect_same({"export", "-o", "-", "--format", "csv"});
+    EXPECT_THAT(run({"publish", address}, 1).err, HasSubstr("can be published once a month"));
+    EXPECT_EQ(run({"privacy", server.address("roads"), "crowd"}).err, "");
+    EXPECT_THAT(run({"cells", server.address("roads"), "--move", "1", "--to", address}, 1).err,
+                HasSubstr("has no cell 1"));
+
+    fs::remove_all(at("kept"));
+    fs::rename(fs::path{std::getenv("XDG_CONFIG_HOME")} / "macadam", at("kept"));
+    EXPECT_THAT(run({"query", address, "--segment", "6+0003", "--passes"}, 1).err,
+                AllOf(HasSubstr("for their operator only"), HasSubstr("macadam/keys/")));
+    EXPECT_THAT(run({"info", address}).out, HasSubstr("at least 5 of 5 cars"));
+    EXPECT_EQ(exported_ways(), ways_in_file);
+    EXPECT_THAT(run({"import", address, at("trips")}, 1).err, HasSubstr("the key of its cars is"));
+}
+
+TEST_F(Crowd, WhoseLogsWaitOnAServerForgetsThemToo) {
+    PostgresServer server;
+    store_ = server.new_database("roads");
+    run({"init", store_, "--network", at("road.osm"), "--privacy", "crowd"});
+    run({"submit", store_, at("trips/1.trip.csv"), "--objects", at("objects")});
+    const auto forgot = run({"forget", store_, "--vehicle-id", "car-1"});
+    EXPECT_THAT(forgot.err, HasSubstr("importing the logs that wait in the queue, first"));
+    EXPECT_THAT(forgot.out, HasSubstr("1 trip permanently deleted"));
+    EXPECT_THAT(run({"info", store_, "--json"}).out, HasSubstr("\"trips\":0,"));
 }
 
 TEST_F(Crowd, IsNeverMadeOfRoadsTracedFromTrips) {

@@ -174,9 +174,19 @@ TEST_F(ServerCommands, ServeADatabaseWhileItGrows) {
 
 TEST_F(ServerCommands, SayWhyTheyCannot) {
     EXPECT_THAT(run_on(address_, {"import", trip_}).err, HasSubstr("has no road database"));
-    const auto crowd = run_on(address_, {"init", "--network", "a.osm", "--privacy", "crowd"});
+    const auto crowd = run_on(address_,
+                              {"init",
+                               "--network",
+                               "a.osm",
+                               "--privacy",
+                               "crowd",
+                               "--keep-logs",
+                               "30",
+                               "--logs-key",
+                               "logs.key"});
     EXPECT_EQ(crowd.exit_status, 2);
-    EXPECT_THAT(crowd.err, HasSubstr("--privacy crowd works with a .gpkg file only so far"));
+    EXPECT_THAT(crowd.err,
+                HasSubstr("--keep-logs is for a .gpkg file: workers of a database on a"));
     ASSERT_EQ(run_on(address_, {"init", "--trace", trip_}).exit_status, 0);
     const auto twice = run_on(address_, {"init", "--trace", trip_});
     EXPECT_EQ(twice.exit_status, 1);
@@ -184,7 +194,8 @@ TEST_F(ServerCommands, SayWhyTheyCannot) {
     EXPECT_THAT(run_on(address_, {"forget", "--trip", "none"}).err,
                 AllOf(HasSubstr(address_ + ": has no trip 'none'"), HasSubstr("SHA-256")));
     EXPECT_THAT(run_on(address_, {"privacy", "crowd"}).err,
-                HasSubstr("works on a GeoPackage file only so far"));
+                HasSubstr("its roads were traced from trips"));
+    EXPECT_THAT(run_on(address_, {"publish"}).err, HasSubstr("expected a crowd database"));
 }
 
 } // namespace

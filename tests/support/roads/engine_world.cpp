@@ -1,16 +1,25 @@
 #include "support/roads/engine_world.hpp"
 
+#include "storage/sqlite/sqlite.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
 #include "storage/store/server/reader/server_reader.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
 #include "support/roads/store_world.hpp"
 
+#include <algorithm>
+
 namespace macadam::testing {
 
-EngineDatabase::EngineDatabase(Engine engine, const std::filesystem::path& folder) {
+EngineDatabase::EngineDatabase(Engine engine, const std::filesystem::path& folder)
+    : EngineDatabase{engine, folder, small_country(), settings()} {}
+
+EngineDatabase::EngineDatabase(Engine engine,
+                               const std::filesystem::path& folder,
+                               const RoadNetwork& roads,
+                               const StoreSettings& settings) {
     const auto file = folder / "roads.gpkg";
-    static_cast<void>(new_store(file));
+    static_cast<void>(RoadStore::create(file, roads, settings));
     name_ = file.string();
     if (engine == Engine::postgresql) {
         server_.emplace();
@@ -27,9 +36,13 @@ ImportStore EngineDatabase::import() const {
     return {name_, StoreReader{open.image}, open.trips};
 }
 
-StoreReader EngineDatabase::read() const {
-    return server_ ? StoreReader{open_server_reader(name_, {}, Audience::operator_, {}, {})}
-                   : StoreReader::open(name_);
+StoreReader EngineDatabase::read(Audience audience) const {
+    return server_ ? StoreReader{open_server_reader(name_, {}, audience, {}, {})}
+                   : StoreReader::open(name_, {}, audience);
+}
+
+std::filesystem::path EngineDatabase::key_file() const {
+    return import().trips->key_file();
 }
 
 RoadStore EngineDatabase::maintain() const {
@@ -84,6 +97,34 @@ void import_rich_trips(ImportTarget& trips, int count) {
 void fuse_all(ImportTarget& trips) {
     FusionRecord record;
     trips.refresh({}, record);
+}
+
+std::vector<std::string> rows_of_tables(const std::filesystem::path& file) {
+    Database database{file, Database::Access::read};
+    std::vector<std::string> tables;
+    auto names = database.prepare("SELECT name FROM sqlite_schema WHERE type = 'table' AND name"
+                                  " NOT GLOB 'gpkg_*' AND name NOT GLOB 'rtree_*' AND name NOT GLOB"
+                                  " 'sqlite_*' AND name NOT IN ('layer_styles', 'strip_dirty')"
+                                  " ORDER BY name");
+    while (names.step()) {
+        tables.push_back(names.text(0));
+    }
+    std::vector<std::string> rows;
+    for (const auto& table : tables) {
+        auto count = database.prepare("SELECT count(*) FROM pragma_table_info(?)");
+        count.bind(table).step();
+        const auto columns = static_cast<int>(count.integer(0));
+        auto select = database.prepare("SELECT * FROM " + table);
+        while (select.step()) {
+            std::string row = table;
+            for (int column = 0; column < columns; ++column) {
+                row += select.is_null(column) ? "|-" : "|" + select.text(column);
+            }
+            rows.push_back(row);
+        }
+    }
+    std::ranges::sort(rows);
+    return rows;
 }
 
 } // namespace macadam::testing

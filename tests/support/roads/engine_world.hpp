@@ -13,15 +13,26 @@ namespace macadam::testing {
 
 enum class Engine { geopackage, postgresql };
 
-/// Database of the small country (store_world.hpp) on one of the engines, empty at first.
+/// Database on one of the engines, empty at first. Beside the one on a server, an empty file of the
+/// same key stays in the folder: roads.gpkg.
 class EngineDatabase {
 public:
+    /// Of the small country (store_world.hpp).
     EngineDatabase(Engine engine, const std::filesystem::path& folder);
+
+    /// With other roads and settings.
+    EngineDatabase(Engine engine,
+                   const std::filesystem::path& folder,
+                   const RoadNetwork& roads,
+                   const StoreSettings& settings);
 
     /// Opens it for imports. Each call opens a connection of its own.
     ImportStore import() const;
-    StoreReader read() const;
+    StoreReader read(Audience audience = Audience::operator_) const;
     RoadStore maintain() const;
+
+    /// Where its key is.
+    std::filesystem::path key_file() const;
 
     const std::string& name() const { return name_; }
     PostgresServer& server() { return *server_; }
@@ -49,5 +60,9 @@ bool add_rich_trip(ImportTarget& trips, int number, bool readmit = false);
 void import_rich_trips(ImportTarget& trips, int count);
 
 void fuse_all(ImportTarget& trips);
+
+/// Content of all tables, but for those that SQLite and the GeoPackage keep for themselves, and for
+/// marks of chunks, which on the server stand for those of their segments.
+std::vector<std::string> rows_of_tables(const std::filesystem::path& file);
 
 } // namespace macadam::testing

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/store/server/cells/cell_schema.hpp"
+#include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_tables.hpp"
 
@@ -143,6 +144,11 @@ std::vector<MapCell> cells_of(ServerConnection& front) {
 
 std::int64_t move_cell(ServerConnection& front, std::int32_t cell, const std::string& address) {
     expect_cell(front, cell);
+    if (address != front.address() && is_crowd(front)) {
+        throw InputError{fmt::format("{}: is a crowd database, which works on one server only so "
+                                     "far: its cells stay",
+                                     front.address())};
+    }
     take_cell_places(front);
     std::optional<std::string> to;
     if (address != front.address()) {

@@ -82,6 +82,14 @@ void copy_network_from_server(ServerConnection& server,
     whole.commit_new();
 }
 
+void know_server_key_file(StoreConnection& copy) {
+    copy.is_copy_of_server = true;
+    // Readers of a crowd do not see the id.
+    if (const auto id = read_key_id(copy.database); !id.empty()) {
+        copy.key_file = server_key_file(id);
+    }
+}
+
 std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
                                                   Database::Access access,
                                                   const LockWaitPolicy& wait_policy,
@@ -105,6 +113,7 @@ std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
         write_key(key_file_of(file), *key);
     }
     copy->store = open_connection(file, access, wait_policy, Audience::operator_, server.address());
+    know_server_key_file(*copy->store);
     auto* const store = copy->store.get();
     return {std::move(copy), store};
 }

@@ -8,6 +8,7 @@
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/drive_rows.hpp"
+#include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_schema.hpp"
@@ -74,6 +75,9 @@ public:
             continue_row_numbers(*server_, table);
         }
         add_server_style(*server_, store_->classes());
+        if (store_->settings.privacy == PrivacyProfile::crowd) {
+            show_publications_alone(*server_);
+        }
     }
 
 private:
@@ -89,8 +93,8 @@ private:
     /// Version and format are of the file, not of its content.
     void copy_meta() {
         CopyWriter writer{*server_, copy_target(server_table("meta")), 2};
-        auto select = file_->prepare(
-            "SELECT key, value FROM meta WHERE key NOT IN ('format', 'version') ORDER BY key");
+        auto select = file_->prepare(fmt::format(
+            "SELECT key, value FROM meta WHERE key NOT IN ({}) ORDER BY key", settings_of_server));
         while (select.step()) {
             writer.add(select.text(0), select.text(1));
         }
@@ -225,11 +229,6 @@ StoreCopy copy_to_server(const fs::path& file,
                          const Progress& progress) {
     const auto store =
         open_connection(file, Database::Access::read, wait_policy, Audience::operator_);
-    if (store->settings.privacy == PrivacyProfile::crowd) {
-        throw InputError{fmt::format("{}: is a crowd database, which works as a GeoPackage file "
-                                     "only so far",
-                                     file.string())};
-    }
     ServerConnection server{address};
     auto& database = store->database;
     Transaction one_moment{database, Transaction::Kind::read};
@@ -240,6 +239,8 @@ StoreCopy copy_to_server(const fs::path& file,
         .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
         .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
         .by_superuser = server.is_superuser(),
+        .is_activity_open =
+            store->settings.privacy == PrivacyProfile::crowd && is_activity_open(server),
         .key_file = server_key_file(read_key_id(database))};
     const auto copied =
         digest_of_server(server, static_cast<std::uint32_t>(store->segments_per_chunk()), progress);

@@ -18,6 +18,10 @@
 namespace macadam {
 namespace {
 
+constexpr std::array shown_publications{std::string_view{"publication"},
+                                        std::string_view{"published_state"},
+                                        std::string_view{"published_figure"},
+                                        std::string_view{"published_event"}};
 constexpr std::array background_tables{"background", "place", "road_ref"};
 /// Tables that fusion of chosen passes reads besides the passes.
 constexpr std::array tables_of_fusion{"fusion_setting", "valid_from", "control_section"};
@@ -42,6 +46,9 @@ bool belongs_to(ServerContent content, const ServerTable& table) {
         return name == "way" || name == "segment";
     case ServerContent::roads:
         return table.use == ServerUse::road || name == "chunk_dirty";
+    case ServerContent::published:
+        return (table.use == ServerUse::road && !name.ends_with("_state")) ||
+               std::ranges::find(shown_publications, name) != shown_publications.end();
     case ServerContent::all:
         break;
     }
@@ -99,6 +106,8 @@ void fill_copy(RowsFromServer& rows, Database& file, ServerContent content) {
                 rows.copy_states({});
             } else if (name == "chunk_dirty") {
                 rows.copy_marks();
+            } else if (name == "publication" && content == ServerContent::published) {
+                rows.copy_publications();
             } else if (table.file_table != nullptr) {
                 rows.copy_rows(table);
             }

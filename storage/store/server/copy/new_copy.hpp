@@ -10,8 +10,9 @@ namespace macadam {
 
 /// Extent of a copy of a database on a server.
 enum class ServerContent : std::uint8_t {
-    network, ///< roads and settings
-    roads,   ///< also fused values and what maps show below: what role macadam_reader may read
+    network,   ///< roads and settings
+    roads,     ///< also fused values and what maps show below: what role macadam_reader may read
+    published, ///< of a crowd, roads and publications: what that role may read then
     all
 };
 

@@ -11,6 +11,7 @@
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/store/server/server_rows.hpp"
+#include "storage/store/server/server_schema.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,7 +74,7 @@ RowsFromServer::RowsFromServer(ServerConnection& server, Database& file, const P
     classes_ = macadam::class_table(setting("class_table"));
     const double length_m = std::strtod(setting("segment_length_m").c_str(), nullptr);
     constexpr double least_m = 1; // read_settings() checks it closely
-    if (privacy != PrivacyProfile::own || classes_ == nullptr || !(length_m >= least_m)) {
+    if (!privacy || classes_ == nullptr || !(length_m >= least_m)) {
         throw InputError{fmt::format("{}: its settings are not those of a database that 'macadam "
                                      "copy' made",
                                      server.address())};
@@ -120,8 +121,8 @@ std::string RowsFromServer::from(const char* table, const Chunks& chunks) const 
 void RowsFromServer::copy_meta() {
     auto insert = file_->prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)");
     CopyReader reader{*server_,
-                      "(SELECT key, value FROM macadam.meta WHERE key NOT IN"
-                      " ('format', 'version', 'network_rows', 'store_rows'))",
+                      fmt::format("(SELECT key, value FROM macadam.meta WHERE key NOT IN ({}))",
+                                  settings_of_server),
                       "meta",
                       2};
     while (reader.next()) {
@@ -147,6 +148,21 @@ void RowsFromServer::copy_rows(const ServerTable& table, const std::string& cond
     while (reader.next()) {
         put_row(insert, reader.row(), table);
         expect_no_stop(*server_, *progress_);
+    }
+}
+
+void RowsFromServer::copy_publications() {
+    const auto& table = server_table("publication");
+    auto insert = file_->prepare(fmt::format("INSERT INTO publication ({}) VALUES ({})",
+                                             column_list(table),
+                                             placeholders(columns_of(table))));
+    CopyReader reader{*server_,
+                      "(SELECT number, month, 0::bigint, 0::bigint, segments, length_m,"
+                      " left_segments, left_m, trips, cars FROM macadam.publication)",
+                      table.name,
+                      columns_of(table)};
+    while (reader.next()) {
+        put_row(insert, reader.row(), table);
     }
 }
 

@@ -49,6 +49,10 @@ public:
     /// \param condition  of SQL, of our own; "" = all. Rows that are there stay as they are.
     void copy_rows(const ServerTable& table, const std::string& condition = {});
 
+    /// Copies table publication without the rows of trips and segments that it reached to, which
+    /// readers must not see.
+    void copy_publications();
+
     void copy_segments(const Chunks& chunks);
     void copy_states(const Chunks& chunks);
     void copy_drives(const Chunks& chunks);

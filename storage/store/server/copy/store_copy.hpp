@@ -18,13 +18,14 @@ struct StoreCopy {
     std::size_t passes = 0;
     std::string digest;             ///< equal on both sides
     bool by_superuser = false;      ///< of the server
+    bool is_activity_open = false;  ///< of a crowd on a server, see reader_rights.hpp
     std::filesystem::path key_file; ///< where the key of the copy is, if it is at hand
 };
 
 /// Copies a database from a file to a server, in one transaction: all of it or, on failure,
 /// nothing. Its key, if it lies beside the file, is kept at server_key_file().
 ///
-/// \throws InputError  if the server already has one, or the file is a crowd database.
+/// \throws InputError  if the server already has one.
 StoreCopy copy_to_server(const std::filesystem::path& file,
                          const std::string& address,
                          const LockWaitPolicy& wait_policy,
@@ -45,6 +46,10 @@ StoreCopy copy_from_server(const std::string& address,
 void copy_network_from_server(ServerConnection& server,
                               const std::filesystem::path& file,
                               const Progress& progress);
+
+/// Tells a connection to a copy of a database on a server where its key belongs: at
+/// server_key_file(), and never made anew.
+void know_server_key_file(StoreConnection& copy);
 
 /// Opens a private copy of the moment of a database in the folder of temporary files, with its key
 /// if this user has it. The copy is removed with the last user of the connection.

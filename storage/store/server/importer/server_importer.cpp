@@ -64,10 +64,7 @@ public:
 
     bool make_missing_key() override {
         if (!key_ && !(key_ = read_own_key())) {
-            throw InputError{fmt::format("{}: the key of its cars is not at {}; copy it there from "
-                                         "a computer that imports into this database",
-                                         server_->address(),
-                                         key_file().string())};
+            refuse_missing_key(server_->address(), key_file());
         }
         return false;
     }

@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
+#include "storage/store/records/publication.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -14,8 +15,12 @@ namespace macadam {
 class LocalCopy {
 public:
     /// Brings the copy up to date.
-    /// \throws InputError  if the server cannot be reached, or has no such database.
-    LocalCopy(std::filesystem::path store, LockWaitPolicy wait_policy, const Progress& progress);
+    /// \param audience  operator_: of a crowd, all, if this user has the key; else publications
+    /// alone \throws InputError  if the server cannot be reached, or has no such database.
+    LocalCopy(std::filesystem::path store,
+              LockWaitPolicy wait_policy,
+              const Progress& progress,
+              Audience audience = Audience::anyone);
 
     /// The file; of a copy, a link in a folder that goes with this object.
     const std::filesystem::path& file() const { return file_; }
@@ -28,6 +33,7 @@ public:
 private:
     std::filesystem::path store_;
     LockWaitPolicy wait_policy_;
+    Audience audience_;
     std::optional<TemporaryFolder> folder_;
     std::filesystem::path file_;
 };

@@ -52,15 +52,21 @@ std::string letters_of(const std::string& text) {
     return hash.hex().substr(0, letters);
 }
 
-MirroredDatabase mirrored(ServerConnection& server) {
+/// Finds out which database it is. Publications change as a whole and by name only: readers need
+/// not see where the server writes.
+MirroredDatabase mirrored(ServerConnection& server, ServerContent content) {
+    const bool is_published = content == ServerContent::published;
     // A promoted standby may lack transactions and give their numbers to others: another timeline.
-    const auto found = server.rows(
+    const auto found = server.rows(fmt::format(
         "SELECT system_identifier, (SELECT oid FROM pg_database WHERE datname ="
-        " current_database()), 'macadam.meta'::regclass::oid, CASE WHEN pg_is_in_recovery() THEN"
-        " 'standby ' || (SELECT timeline_id FROM pg_control_checkpoint())"
-        " ELSE left(pg_walfile_name(pg_current_wal_lsn()), 8) END,"
+        " current_database()), 'macadam.meta'::regclass::oid, {},"
         " (SELECT string_agg(value, ' ' ORDER BY key) FROM macadam.meta"
-        " WHERE key IN ('network_rows', 'store_rows')) FROM pg_control_system()");
+        " WHERE key IN ('network_rows', '{}')) FROM pg_control_system()",
+        is_published ? "''"
+                     : "CASE WHEN pg_is_in_recovery() THEN"
+                       " 'standby ' || (SELECT timeline_id FROM pg_control_checkpoint())"
+                       " ELSE left(pg_walfile_name(pg_current_wal_lsn()), 8) END",
+        is_published ? "published_rows" : "store_rows"));
     const auto& row = found.at(0);
     std::string state;
     for (std::size_t i = 2; i < row.size(); ++i) {
@@ -72,7 +78,9 @@ MirroredDatabase mirrored(ServerConnection& server) {
 }
 
 std::string_view suffix_of(ServerContent content) {
-    return content == ServerContent::all ? "all" : "roads";
+    return content == ServerContent::all     ? "all"
+           : content == ServerContent::roads ? "roads"
+                                             : "published";
 }
 
 fs::path mirror_file(const MirroredDatabase& of, ServerContent content) {
@@ -92,7 +100,8 @@ void remove_mirror(const fs::path& file) {
     fs::remove(key_file_of(file), ignored);
 }
 
-/// Removes copies that nobody will read again: of an earlier state, and those not read for a month.
+/// Removes copies that nobody will read again: of an earlier state, and those not read for a month;
+/// with publications of a crowd, also those without trips of when it was none.
 void remove_stale_mirrors(const MirroredDatabase& of, ServerContent content) {
     constexpr std::chrono::hours month{24 * 30};
     const auto kept = mirror_file(of, content);
@@ -103,7 +112,10 @@ void remove_stale_mirrors(const MirroredDatabase& of, ServerContent content) {
         const auto name = file.filename().string();
         const bool is_earlier =
             name.starts_with(of.database + "-" + of.address + "-") &&
-            name.find(fmt::format("-{}-", suffix_of(content))) != std::string::npos;
+            (name.find(fmt::format("-{}-", suffix_of(content))) != std::string::npos ||
+             (content == ServerContent::published &&
+              name.find(fmt::format("-{}-", suffix_of(ServerContent::roads))) !=
+                  std::string::npos));
         const auto age = fs::file_time_type::clock::now() - entry.last_write_time(error);
         if (file.extension() == ".gpkg" && file != kept && (is_earlier || age > month)) {
             stale.push_back(file);
@@ -128,7 +140,9 @@ void make_mirror(ServerConnection& server,
     Database database{whole.main_file(), Database::Access::create, server.address()};
     RowsFromServer rows{server, database, progress};
     fill_copy(rows, database, content);
-    put_snapshot(database, snapshot_of(server));
+    if (content != ServerContent::published) { // which no transaction changes in part
+        put_snapshot(database, snapshot_of(server));
+    }
     database.close();
     fs::permissions(whole.main_file(), fs::perms::owner_read | fs::perms::owner_write);
     remove_leftovers_of(file);
@@ -285,7 +299,7 @@ bool refresh(ServerConnection& server,
     stop_writers(server);
     ServerTransaction one_moment{server, true};
     see_all_cells(server);
-    if (mirrored(server) != of) {
+    if (mirrored(server, content) != of) {
         return false;
     }
     if (MirrorRefresh{server, file, content, progress}.run()) {
@@ -332,10 +346,15 @@ bool make(ServerConnection& server,
     if (fs::exists(file, error)) {
         return false;
     }
-    stop_writers(server);
+    const bool reads_cells = content != ServerContent::published;
+    if (reads_cells) {
+        stop_writers(server);
+    }
     ServerTransaction one_moment{server, true};
-    see_all_cells(server);
-    if (mirrored(server) != of) {
+    if (reads_cells) {
+        see_all_cells(server);
+    }
+    if (mirrored(server, content) != of) {
         return false;
     }
     make_mirror(server, file, content, progress);
@@ -353,10 +372,16 @@ fs::path refreshed_mirror(ServerConnection& server,
     expect_server_schema(server);
     constexpr int attempts = 20; // others take turns, and programs may forget trips meanwhile
     for (int attempt = 0; attempt < attempts; ++attempt) {
-        const auto of = mirrored(server);
+        const auto of = mirrored(server, content);
         const auto file = mirror_file(of, content);
         std::error_code error;
         const bool is_there = fs::exists(file, error);
+        if (content == ServerContent::published) {
+            if (is_there || make(server, of, content, progress)) {
+                return file; // without the key
+            }
+            continue;
+        }
         if (is_there ? refresh(server, of, content, wait_policy, progress)
                      : make(server, of, content, progress)) {
             add_key(server, file);
@@ -367,15 +392,15 @@ fs::path refreshed_mirror(ServerConnection& server,
                                  server.address())};
 }
 
-void remove_mirrors_with_trips(ServerConnection& server) {
-    const auto of = mirrored(server).database + "-";
-    const auto with_trips = fmt::format("-{}-", suffix_of(ServerContent::all));
+void remove_mirrors_of_fusion(ServerConnection& server) {
+    const auto of = mirrored(server, ServerContent::all).database + "-";
+    const auto published = fmt::format("-{}-", suffix_of(ServerContent::published));
     std::error_code error;
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator{mirror_folder(), error}) {
         const auto name = entry.path().filename().string();
         if (name.starts_with(of) && name.ends_with(".gpkg") &&
-            name.find(with_trips) != std::string::npos) {
+            name.find(published) == std::string::npos) {
             found.push_back(entry.path());
         }
     }

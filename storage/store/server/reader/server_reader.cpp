@@ -3,8 +3,10 @@
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/schema/store_schema.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/reader/chunk_choice.hpp"
 #include "storage/store/server/reader/server_mirror.hpp"
+#include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/user_files.hpp"
@@ -71,9 +73,23 @@ std::shared_ptr<StoreConnection> open_server_part(ServerConnection& server,
     }
     part->store =
         open_connection(file, Database::Access::read, wait_policy, audience, server.address());
+    know_server_key_file(*part->store);
     part->store->seen_in_whole = seen_in(server);
     auto* const store = part->store.get();
     return {std::move(part), store};
+}
+
+ServerContent content_for(ServerConnection& server, bool passes, Audience audience) {
+    expect_server_schema(server);
+    if (is_crowd(server)) {
+        const auto id = server.rows("SELECT value FROM macadam.meta WHERE key = 'key_id'");
+        const bool sees_all = audience == Audience::operator_ && !id.empty() &&
+                              read_key(server_key_file(id[0][0].value_or("")));
+        if (!sees_all) {
+            return ServerContent::published;
+        }
+    }
+    return passes ? ServerContent::all : ServerContent::roads;
 }
 
 std::shared_ptr<StoreConnection> open_server_reader(const std::string& address,
@@ -82,7 +98,8 @@ std::shared_ptr<StoreConnection> open_server_reader(const std::string& address,
                                                     const LockWaitPolicy& wait_policy,
                                                     const Progress& progress) {
     ServerConnection server{address};
-    if (need.segments && chooses_chunks(*need.segments)) {
+    const auto content = content_for(server, need.content.passes, audience);
+    if (content != ServerContent::published && need.segments && chooses_chunks(*need.segments)) {
         stop_writers(server);
         ServerTransaction one_moment{server, true};
         see_all_cells(server);
@@ -92,12 +109,10 @@ std::shared_ptr<StoreConnection> open_server_reader(const std::string& address,
             return open_server_part(server, chunks, need.content, audience, wait_policy, progress);
         }
     }
-    const auto file =
-        refreshed_mirror(server,
-                         need.content.passes ? ServerContent::all : ServerContent::roads,
-                         wait_policy,
-                         progress);
-    return open_connection(file, Database::Access::read, wait_policy, audience, address);
+    const auto file = refreshed_mirror(server, content, wait_policy, progress);
+    auto store = open_connection(file, Database::Access::read, wait_policy, audience, address);
+    know_server_key_file(*store);
+    return store;
 }
 
 } // namespace macadam

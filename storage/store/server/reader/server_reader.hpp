@@ -18,9 +18,14 @@ struct ServerNeed {
     PartContent content{.passes = true, .background = true};
 };
 
+/// Content of a database that may be read: all of a crowd only by its operator, who has the key and
+/// a role that reads trips.
+ServerContent content_for(ServerConnection& server, bool passes, Audience audience);
+
 /// Opens what a command needs of a database on a server: a private copy of the chunks in question,
 /// where they are few; else a copy of all that is kept for the next command (server_mirror.hpp),
-/// without trips if no passes are needed.
+/// without trips if no passes are needed. Of a crowd, publications alone unless content_for() says
+/// more.
 ///
 /// \throws InputError  if the server cannot be reached, or has no such database.
 std::shared_ptr<StoreConnection> open_server_reader(const std::string& address,

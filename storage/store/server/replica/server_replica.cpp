@@ -56,7 +56,7 @@ private:
                                          digest)};
         }
         all.commit();
-        remove_mirrors_with_trips(server_); // even if a server of cells fails now
+        remove_mirrors_of_fusion(server_); // even if a server of cells fails now
         drop_unused_cell_tables(server_);
         recorder_.emplace(database);
     }

@@ -6,6 +6,7 @@
 #include "storage/store/fusion/store_version.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/server/drive_rows.hpp"
+#include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/server_tables.hpp"
@@ -66,6 +67,7 @@ public:
         if (keys_of("way") != nullptr) {
             add_missing_cells();
         }
+        const bool is_published_anew = has_new_publication();
         // Away first, references before what they refer to; then new rows the other way.
         for (const auto& table : std::views::reverse(server_tables())) {
             remove_rows(table);
@@ -75,6 +77,9 @@ public:
         }
         if (keys_of("meta") != nullptr) {
             put_settings();
+        }
+        if (is_published_anew) {
+            server_->rows(renew_published_rows);
         }
         if (keys_of("way") != nullptr || keys_of("segment") != nullptr) {
             server_->rows(renew_network_rows);
@@ -94,6 +99,13 @@ private:
     const std::set<RowKey>* keys_of(const std::string& table) const {
         const auto found = changed_->find(table);
         return found != changed_->end() ? &found->second : nullptr;
+    }
+
+    /// Forgetting trips changes rows of publications, too, but nothing that readers see.
+    bool has_new_publication() {
+        constexpr const char* last = "SELECT coalesce(max(number), 0) FROM {}publication";
+        return file_->number(fmt::format(last, "").c_str()) !=
+               server_->number(fmt::format(last, "macadam."));
     }
 
     void remove_rows(const ServerTable& table) {
@@ -367,13 +379,19 @@ private:
         add_server_cells(*server_, cells);
     }
 
+    /// Another profile is another network to importers, who keep it with the settings.
     void put_settings() {
+        const bool was_crowd = is_crowd(*server_);
         auto select =
             file_->prepare("SELECT key, value FROM meta WHERE key NOT IN ('format', 'version')");
         while (select.step()) {
             server_->rows("INSERT INTO macadam.meta VALUES ($1, $2) ON CONFLICT (key) DO UPDATE SET"
                           " value = excluded.value WHERE meta.value <> excluded.value",
                           {select.text(0), select.text(1)});
+        }
+        if (!was_crowd && is_crowd(*server_)) {
+            show_publications_alone(*server_);
+            server_->rows(renew_network_rows);
         }
     }
 

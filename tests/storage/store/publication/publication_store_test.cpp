@@ -1,5 +1,5 @@
-#include "mapping/network/build_network.hpp"
 #include "support/files/files.hpp"
+#include "support/roads/crowd_drives.hpp"
 #include "support/roads/store_world.hpp"
 
 #include "storage/sqlite/sqlite.hpp"
@@ -19,28 +19,16 @@ namespace macadam {
 namespace {
 
 using testing::add_trip;
+using testing::CrowdDrive;
+using testing::day_ms;
+using testing::february_ms;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::january_ms;
+using testing::march_ms;
 using testing::refusal_of;
+using testing::roads_in_a_row;
 using testing::test_folder;
-
-constexpr std::int64_t january_ms = 1'767'225'600'000; // 2026-01-01
-constexpr std::int64_t day_ms = 86'400'000;
-constexpr std::int64_t february_ms = january_ms + 31 * day_ms;
-constexpr std::int64_t march_ms = february_ms + 28 * day_ms;
-
-/// Three roads in a row, of 200 m each; who drives them all is told of on the middle one.
-RoadNetwork three_roads() {
-    std::vector<Way> ways;
-    for (int way = 1; way <= 3; ++way) {
-        ways.push_back({.id = way,
-                        .name = "",
-                        .highway = "primary",
-                        .node_ids = {way, way + 1},
-                        .line = {{45.0, 5.0 + 0.00254 * (way - 1)}, {45.0, 5.0 + 0.00254 * way}}});
-    }
-    return build_network(std::move(ways));
-}
 
 struct Crowd {
     std::filesystem::path file;
@@ -48,7 +36,7 @@ struct Crowd {
 
     explicit Crowd(PrivacyProfile privacy = PrivacyProfile::crowd)
         : file{test_folder() / "crowd.gpkg"}, store{RoadStore::create(file,
-                                                                      three_roads(),
+                                                                      roads_in_a_row(3),
                                                                       {.network_source = "map",
                                                                        .attribution = "",
                                                                        .privacy = privacy})} {}
@@ -59,33 +47,8 @@ struct Crowd {
     }
     void drive_into(
         RoadStore& to, int car, std::int64_t utc_ms, IriUm iri_um = 2000, bool holes = false) {
-        auto record = testing::trip_record(1000 + trips_++);
-        record.vehicle_id = "car " + std::to_string(car);
-        record.t0_utc_ms = utc_ms;
-        std::vector<Pass> passes;
-        for (std::int64_t way = 1; way <= 3; ++way) {
-            for (std::uint32_t index = 0; index < 10; ++index) {
-                auto pass = testing::passes_of(1).front();
-                pass.segment = {way, true, index};
-                pass.iri_left_um = pass.iri_right_um = std::nullopt;
-                pass.iri_um = iri_um;
-                pass.sd_um = 100;
-                pass.t_ms = 1000 * (10 * way + index);
-                passes.push_back(pass);
-            }
-        }
-        std::vector<PassEvent> events;
-        for (std::int64_t way = 1; holes && way <= 2; ++way) {
-            events.push_back({.segment = {way, true, 2},
-                              .occurrence = 0,
-                              .kind = EventKind::pothole,
-                              .track = WheelTrack::unknown,
-                              .at_mm = 55'300,
-                              .place_sd_mm = 800,
-                              .size_um = 31'000,
-                              .sd_um = 9'000});
-        }
-        add_trip(to, record, passes, {}, events);
+        const CrowdDrive drive{trips_++, car, utc_ms, iri_um, holes};
+        add_trip(to, drive.record(), drive.passes(), {}, drive.events());
     }
     void drive_all(int cars, std::int64_t utc_ms, IriUm iri_um = 2000) {
         for (int car = 0; car < cars; ++car) {
@@ -102,7 +65,7 @@ struct Crowd {
         other.importer.refresh();
     }
     Published publish(std::int64_t now_ms, const Progress& progress = {}) {
-        return store.maintenance.publish(three_roads(), now_ms, progress);
+        return store.maintenance.publish(roads_in_a_row(3), now_ms, progress);
     }
 
     std::vector<SegmentRecord> seen(const std::optional<Period>& period = {},
@@ -373,7 +336,7 @@ TEST(PublicationBesideOthers, IsRefusedWhenAnotherOneOfTheMonthWasQuicker) {
         refusal_of([&] {
             crowd.publish(
                 february_ms, meanwhile([&] {
-                    RoadStore::open(crowd.file).maintenance.publish(three_roads(), february_ms);
+                    RoadStore::open(crowd.file).maintenance.publish(roads_in_a_row(3), february_ms);
                 }));
         }),
         HasSubstr("was already published in 2026-02"));

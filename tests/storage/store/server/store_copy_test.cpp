@@ -8,6 +8,7 @@
 #include "storage/store/put_background.hpp"
 #include "support/files/files.hpp"
 #include "support/program/postgres_server.hpp"
+#include "support/roads/engine_world.hpp"
 #include "support/roads/store_world.hpp"
 
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ using ::testing::Not;
 using testing::passes_of;
 using testing::PostgresServer;
 using testing::refusal_of;
+using testing::rows_of_tables;
 using testing::small_country;
 using testing::test_folder;
 using testing::trip_record;
@@ -84,36 +86,6 @@ void make_rich_store(const fs::path& file) {
     });
 }
 
-/// Content of all tables, but for those that SQLite and the GeoPackage keep for themselves, and for
-/// marks of chunks, which on the server stand for those of their segments.
-std::vector<std::string> content_of(const fs::path& file) {
-    Database database{file, Database::Access::read};
-    std::vector<std::string> tables;
-    auto names = database.prepare("SELECT name FROM sqlite_schema WHERE type = 'table' AND name"
-                                  " NOT GLOB 'gpkg_*' AND name NOT GLOB 'rtree_*' AND name NOT GLOB"
-                                  " 'sqlite_*' AND name NOT IN ('layer_styles', 'strip_dirty')"
-                                  " ORDER BY name");
-    while (names.step()) {
-        tables.push_back(names.text(0));
-    }
-    std::vector<std::string> rows;
-    for (const auto& table : tables) {
-        auto count = database.prepare("SELECT count(*) FROM pragma_table_info(?)");
-        count.bind(table).step();
-        const auto columns = static_cast<int>(count.integer(0));
-        auto select = database.prepare("SELECT * FROM " + table);
-        while (select.step()) {
-            std::string row = table;
-            for (int column = 0; column < columns; ++column) {
-                row += select.is_null(column) ? "|-" : "|" + select.text(column);
-            }
-            rows.push_back(row);
-        }
-    }
-    std::ranges::sort(rows);
-    return rows;
-}
-
 class StoreCopies : public ::testing::Test {
 protected:
     StoreCopy copy_there() { return copy_to_server(file_, address_, {}, {}); }
@@ -145,7 +117,7 @@ TEST_F(StoreCopies, GoThereAndBackWithEveryRow) {
     EXPECT_EQ(there.digest, StoreReader::open(file_).digest());
     const auto back = copy_from_server(address_, folder_ / "back.gpkg", {});
     EXPECT_EQ(back.digest, there.digest);
-    EXPECT_EQ(content_of(folder_ / "back.gpkg"), content_of(file_));
+    EXPECT_EQ(rows_of_tables(folder_ / "back.gpkg"), rows_of_tables(file_));
 
     auto store = RoadStore::open(folder_ / "back.gpkg"); // and it goes on from there
     auto original = RoadStore::open(file_);
@@ -242,18 +214,13 @@ TEST_F(StoreCopies, RefuseWhatTheyCannotTake) {
     EXPECT_THAT(refusal_of([&] { copy_to_server(file_, server_.address(), {}, {}); }),
                 HasSubstr("has no PostGIS"));
     EXPECT_THAT(refusal_back(), HasSubstr("has no road database: 'macadam copy roads.gpkg "));
-    auto crowd = testing::settings();
-    crowd.privacy = PrivacyProfile::crowd;
-    RoadStore::create(folder_ / "crowd.gpkg", testing::small_country(), crowd);
-    EXPECT_THAT(refusal_of([&] { copy_to_server(folder_ / "crowd.gpkg", address_, {}, {}); }),
-                HasSubstr("is a crowd database, which works as a GeoPackage file only so far"));
     copy_there();
     EXPECT_THAT(refusal_there(), HasSubstr("already has a schema macadam"));
     EXPECT_THAT(refusal_of([&] { copy_from_server(address_, file_, {}); }),
                 HasSubstr("roads.gpkg: already exists"));
     change("INSERT INTO macadam.migration VALUES (99, 'future')");
     EXPECT_THAT(refusal_back(),
-                HasSubstr("its schema is of version 99, expected 6: it was made by "
+                HasSubstr("its schema is of version 99, expected 7: it was made by "
                           "a newer version of Macadam"));
 }
 
@@ -277,7 +244,7 @@ TEST_F(StoreCopies, DoNotTrustTheServer) {
         {"UPDATE macadam.drive SET body = ''", "the packed passes of a drive are invalid"},
         {"UPDATE macadam.meta SET value = '1e9' WHERE key = 'segment_length_m'",
          "segment_length_m is '1e9'"},
-        {"UPDATE macadam.meta SET value = 'crowd' WHERE key = 'privacy'", "its settings are not"},
+        {"UPDATE macadam.meta SET value = 'all' WHERE key = 'privacy'", "its settings are not"},
         {"UPDATE macadam.segment SET geom = 'SRID=4326;LINESTRING EMPTY'::public.geometry",
          "has no line"},
         {"ALTER TABLE macadam.event ALTER at_mm TYPE text", "an unexpected value of column 7"},

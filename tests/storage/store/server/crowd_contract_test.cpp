@@ -1,0 +1,274 @@
+// What a database of a crowd does on any engine: the same sentences, tried on a GeoPackage and on
+// PostgreSQL, beside a file of the same key.
+
+#include "storage/store/server/copy/store_copy.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/crowd_drives.hpp"
+#include "support/roads/engine_world.hpp"
+
+#include <gmock/gmock.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+constexpr int road_count = 8;
+
+StoreSettings of(PrivacyProfile privacy) {
+    StoreSettings settings;
+    settings.network_source = "map";
+    settings.privacy = privacy;
+    return settings;
+}
+
+std::vector<std::optional<SegmentState>> values_of(const StoreReader& store,
+                                                   const std::optional<Period>& period = {}) {
+    SegmentFilter filter;
+    filter.period = period;
+    std::vector<std::optional<SegmentState>> states;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        if (record.state) {
+            states.push_back(record.state);
+        }
+    });
+    return states;
+}
+
+class CrowdOnAnyEngine : public ::testing::TestWithParam<Engine> {
+protected:
+    /// Makes the database, and the file beside it.
+    void make(PrivacyProfile privacy = PrivacyProfile::crowd) {
+        database_.emplace(GetParam(), folder_, roads_in_a_row(road_count), of(privacy));
+        fs::copy_file(folder_ / "roads.gpkg", oracle_);
+        fs::copy_file(key_file_of(folder_ / "roads.gpkg"), key_file_of(oracle_));
+    }
+
+    /// Cars 0 to `cars` - 1 drive; the file takes their trips in the opposite order.
+    void drive(int cars, std::int64_t utc_ms, IriUm iri_um = 2000, bool holes = false) {
+        std::vector<CrowdDrive> drives;
+        for (int car = 0; car < cars; ++car) {
+            drives.push_back({trips_++, car, utc_ms, iri_um, holes, road_count});
+        }
+        const auto file = import_store_of(RoadStore::open(oracle_));
+        const auto database = database_->import();
+        for (const auto& each : drives) {
+            add(*database.trips, each);
+        }
+        for (auto each = drives.rbegin(); each != drives.rend(); ++each) {
+            add(*file.trips, *each);
+        }
+        fuse_all(*database.trips);
+        fuse_all(*file.trips);
+    }
+
+    /// Both publish.
+    Published publish(std::int64_t now_ms) {
+        const auto roads = roads_in_a_row(road_count);
+        const auto in_file = RoadStore::open(oracle_).maintenance.publish(roads, now_ms);
+        const auto done = database_->maintain().maintenance.publish(roads, now_ms);
+        EXPECT_EQ(done.changed, in_file.changed);
+        return done;
+    }
+
+    void forget(const std::string& car) {
+        const ForgetRequest request{.trips = {}, .vehicles = {car}};
+        const auto in_file = RoadStore::open(oracle_).maintenance.forget(request);
+        EXPECT_EQ(database_->maintain().maintenance.forget(request).passes, in_file.passes);
+    }
+
+    /// The public and the operator see what they see of the file.
+    void expect_as_in_file(const std::string& when) {
+        const auto shown = database_->read(Audience::anyone);
+        const auto expected = StoreReader::open(oracle_);
+        EXPECT_TRUE(shown.shows_published_alone()) << when;
+        EXPECT_EQ(values_of(shown), values_of(expected)) << when;
+        for (const auto& month : {Period{january_ms, february_ms},
+                                  Period{february_ms, march_ms},
+                                  Period{january_ms, april_ms}}) {
+            EXPECT_EQ(values_of(shown, month), values_of(expected, month)) << when;
+        }
+        EXPECT_EQ(shown.events({}).size(), expected.events({}).size()) << when;
+        EXPECT_EQ(shown.digest(), expected.digest()) << when;
+        EXPECT_EQ(shown.info().trips, expected.info().trips) << when;
+        EXPECT_EQ(database_->read().digest(),
+                  StoreReader::open(oracle_, {}, Audience::operator_).digest())
+            << when;
+    }
+
+    fs::path folder_ = test_folder();
+    fs::path oracle_ = folder_ / "oracle.gpkg";
+    std::optional<EngineDatabase> database_;
+
+private:
+    static void add(ImportTarget& trips, const CrowdDrive& drive) {
+        const auto record = drive.record();
+        const auto passes = drive.passes();
+        const auto events = drive.events();
+        const NewTrip trip{&record, passes, {}, false, events};
+        trips.add_trips({&trip, 1});
+    }
+
+    int trips_ = 0;
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines,
+                         CrowdOnAnyEngine,
+                         ::testing::Values(Engine::geopackage, Engine::postgresql),
+                         [](const auto& engine) {
+                             return engine.param == Engine::geopackage ? "GeoPackage"
+                                                                       : "PostgreSQL";
+                         });
+
+TEST_P(CrowdOnAnyEngine, ShowsThePublicItsPublicationsAlone) {
+    make();
+    drive(6, january_ms, 2000, true);
+    EXPECT_THAT(values_of(database_->read(Audience::anyone)), IsEmpty());
+    EXPECT_FALSE(database_->read(Audience::anyone).latest_publication());
+    const auto first = publish(february_ms);
+    EXPECT_EQ(first.publication.vehicles, 5);
+    EXPECT_EQ(first.changed, 60U); // all but the first and the last road
+    expect_as_in_file("first");
+    const auto shown = database_->read(Audience::anyone);
+    EXPECT_THAT(values_of(shown), SizeIs(60));
+    EXPECT_THAT(shown.events({}), SizeIs(1));
+    EXPECT_THAT(shown.history({2, true, 3}), IsEmpty());
+    EXPECT_THAT(shown.audit(), IsEmpty());
+    EXPECT_THAT(shown.info().vehicles, IsEmpty());
+    ASSERT_TRUE(shown.latest_publication());
+    EXPECT_EQ(shown.latest_publication()->month, "2026-02");
+
+    drive(6, february_ms, 5000); // stays out
+    expect_as_in_file("later trips");
+    EXPECT_EQ(values_of(database_->read(Audience::anyone)).front()->iri_um, 2000);
+    EXPECT_EQ(publish(march_ms).publication.number, 2);
+    expect_as_in_file("second");
+}
+
+TEST_P(CrowdOnAnyEngine, ShowsWhoHasTheKeyAll) {
+    make();
+    drive(2, january_ms);
+    EXPECT_THAT(values_of(database_->read()), SizeIs(80));
+    EXPECT_THAT(database_->read().info().vehicles, SizeIs(2));
+    fs::remove(database_->key_file());
+    const auto reader = database_->read();
+    EXPECT_TRUE(reader.shows_published_alone());
+    EXPECT_THAT(values_of(reader), IsEmpty());
+}
+
+TEST_P(CrowdOnAnyEngine, PublishesWhatAFileWouldThoughCarsAreForgotten) {
+    make();
+    drive(7, january_ms, 2000);
+    drive(3, february_ms, 9000); // wait
+    publish(february_ms);
+    expect_as_in_file("first");
+    const auto before = values_of(database_->read(Audience::anyone));
+    forget("car 2");
+    expect_as_in_file("forgotten");
+    EXPECT_EQ(values_of(database_->read(Audience::anyone)), before); // until others drove
+    drive(6, march_ms, 4000, true);
+    publish(march_ms);
+    expect_as_in_file("second");
+    forget("car 0"); // of the trips that wait, too
+    drive(6, march_ms + day_ms, 3000);
+    publish(april_ms);
+    expect_as_in_file("third");
+    EXPECT_NE(values_of(database_->read(Audience::anyone)), before);
+}
+
+TEST_P(CrowdOnAnyEngine, IsPublishedOnceAMonthByWhoHasTheKey) {
+    make();
+    drive(6, january_ms);
+    publish(february_ms);
+    const auto refusal = [&] {
+        return refusal_of([&] {
+            database_->maintain().maintenance.publish(roads_in_a_row(road_count), february_ms);
+        });
+    };
+    EXPECT_THAT(refusal(),
+                HasSubstr("was already published in 2026-02, and can be published once"));
+    const auto key_file = database_->key_file();
+    fs::remove(key_file);
+    EXPECT_THAT(refusal(), HasSubstr("its key is not at " + key_file.string()));
+    EXPECT_FALSE(fs::exists(key_file));
+}
+
+TEST_P(CrowdOnAnyEngine, MayHaveBeenOneOfOwnCars) {
+    make(PrivacyProfile::own);
+    drive(6, january_ms, 2000, true);
+    EXPECT_FALSE(database_->read(Audience::anyone).shows_published_alone());
+    const auto old_import = database_->import();
+    const auto in_file = RoadStore::open(oracle_).maintenance.make_crowd();
+    const auto made = database_->maintain().maintenance.make_crowd();
+    EXPECT_EQ(made.trips, 6U);
+    EXPECT_EQ(made.passes, in_file.passes);
+    EXPECT_GT(made.passes, 0U);
+    expect_as_in_file("crowd");
+    EXPECT_THAT(values_of(database_->read()), Not(IsEmpty()));
+    EXPECT_THAT(refusal_of([&] { add_rich_trip(*old_import.trips, 1); }),
+                HasSubstr("in the meantime; nothing was written, run the command again"));
+    drive(6, february_ms);
+    publish(march_ms);
+    expect_as_in_file("published");
+    EXPECT_THAT(refusal_of([&] { database_->maintain().maintenance.make_crowd(); }),
+                HasSubstr("is already a crowd database"));
+}
+
+TEST(CrowdOnAServer, GoesThereAndBackWithItsPublications) {
+    const auto folder = test_folder();
+    EngineDatabase database{
+        Engine::postgresql, folder, roads_in_a_row(road_count), of(PrivacyProfile::crowd)};
+    {
+        const auto store = database.import();
+        for (int car = 0; car < 7; ++car) {
+            const CrowdDrive drive{car, car, january_ms, 2000, true, road_count};
+            const auto record = drive.record();
+            const auto passes = drive.passes();
+            const auto events = drive.events();
+            const NewTrip trip{&record, passes, {}, false, events};
+            store.trips->add_trips({&trip, 1});
+        }
+        fuse_all(*store.trips);
+    }
+    database.maintain().maintenance.publish(roads_in_a_row(road_count), february_ms);
+    const auto back = folder / "back.gpkg";
+    const auto copied = copy_from_server(database.name(), back, {});
+    const auto there = database.server().new_database("again");
+    EXPECT_EQ(copy_to_server(back, there, {}, {}).digest, copied.digest);
+    const auto again = folder / "again.gpkg";
+    EXPECT_EQ(copy_from_server(there, again, {}).digest, copied.digest);
+    EXPECT_EQ(rows_of_tables(again), rows_of_tables(back));
+    EXPECT_THAT(rows_of_tables(back),
+                AllOf(Contains(StartsWith("published_state|")),
+                      Contains(StartsWith("published_until|")),
+                      Contains(StartsWith("published_figure|")),
+                      Contains(StartsWith("published_event|"))));
+    for (const auto& file : {back, again}) { // and goes on from there, with its key
+        auto store = RoadStore::open(file);
+        EXPECT_EQ(store.maintenance.publish(roads_in_a_row(road_count), march_ms).changed, 0U);
+    }
+}
+
+TEST(CrowdOnAServer, GetsNoKeyThatItsCopiesTakeAway) {
+    EngineDatabase database{
+        Engine::postgresql, test_folder(), roads_in_a_row(road_count), of(PrivacyProfile::own)};
+    const auto key_file = database.key_file();
+    fs::remove(key_file);
+    EXPECT_THAT(refusal_of([&] { database.maintain().maintenance.make_crowd(); }),
+                HasSubstr("the key of its cars is not at " + key_file.string()));
+    EXPECT_EQ(database.read().settings().privacy, PrivacyProfile::own);
+}
+
+} // namespace
+} // namespace macadam::testing
