@@ -291,7 +291,7 @@ TripTrace trace_of(const TripLog& trip,
         VibrationSpectra spectra;
         for (const auto& span : found.spans) {
             if (uses_vertical(estimator)) {
-                add(spectra, stretch_of(span), vehicle.imu);
+                add(spectra, stretch_of(span));
             }
         }
         auto of_trip = car_of_trip(spectra, stretch_of(longest), vehicle, estimator, progress.stop);

@@ -170,7 +170,7 @@ void LiveRoughness::tune(const TripLog& recent,
     const auto stretch = make_stretch(recent, span, odometer, mounting, stretch_);
     VibrationSpectra spectra;
     if (uses_vertical(estimator_)) {
-        add(spectra, stretch, vehicle_.imu);
+        add(spectra, stretch);
     }
     car_ = car_of_trip(spectra, stretch, vehicle_, estimator_);
     tuned_by_s_ = length_s >= tuned_every_s ? length_s : 0;

@@ -1,5 +1,6 @@
 #include "estimator/smoother/vibration/car_from_vibration.hpp"
 
+#include "estimator/smoother/vibration/sensor_noise.hpp"
 #include "estimator/smoother/vibration/vibration_fit.hpp"
 
 #include <algorithm>
@@ -237,10 +238,11 @@ bool is_enough(const VibrationFit& fit) {
 
 VibratingCar car_from_vibration(const VibrationSpectra& spectra, const Vehicle& vehicle) {
     VibratingCar found{.vehicle = vehicle, .mount = {}};
+    found.vehicle.imu.noise_mps2 = sensor_noise_mps2(spectra, vehicle.imu.noise_mps2);
     const bool unknown_axles = is_class_of_cars(vehicle);
     Guess guess;
     if (unknown_axles) {
-        const VibrationFit fit{spectra, spectra.has_pitch};
+        const VibrationFit fit{spectra, found.vehicle.imu, spectra.has_pitch};
         if (!is_enough(fit)) {
             return found;
         }
@@ -248,7 +250,8 @@ VibratingCar car_from_vibration(const VibrationSpectra& spectra, const Vehicle& 
         found.found_axles = axles.has_value();
         guess = axles.value_or(guess);
     }
-    const VibrationFit fit{spectra, spectra.has_pitch && (vehicle.axles || found.found_axles)};
+    const VibrationFit fit{
+        spectra, found.vehicle.imu, spectra.has_pitch && (vehicle.axles || found.found_axles)};
     if (!is_enough(fit)) {
         return found;
     }

@@ -72,7 +72,9 @@ ends_of(const LinearCar& car) {
 
 } // namespace
 
-VibrationFit::VibrationFit(const VibrationSpectra& spectra, bool with_pitch) {
+VibrationFit::VibrationFit(const VibrationSpectra& spectra, const ImuMount& imu, bool with_pitch) {
+    const double noise_sd[] = {imu.noise_mps2,
+                               std::max(imu.noise_radps, spectra.pitch_noise_radps)};
     const std::size_t channels = with_pitch ? 2 : 1;
     std::vector<std::size_t> level; // of each row
     std::size_t levels = 0;
@@ -85,7 +87,8 @@ VibrationFit::VibrationFit(const VibrationSpectra& spectra, bool with_pitch) {
         for (std::size_t channel = 0; channel < channels; ++channel) {
             for (std::size_t bin = 0; bin < spectra.used_bins; ++bin) {
                 const double power = at.power[channel][bin];
-                if (power > over_noise * at.noise[channel]) {
+                if (power >
+                    over_noise * at.noise[channel] * noise_sd[channel] * noise_sd[channel]) {
                     rows_.push_back({speed_mps,
                                      channel,
                                      bin,

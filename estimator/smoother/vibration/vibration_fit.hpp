@@ -13,8 +13,9 @@ namespace macadam {
 /// octaves of wavelength, common to all speeds, fitted to the logarithms.
 class VibrationFit {
 public:
+    /// \param imu  with the sensor's noise
     /// \param with_pitch  uses pitch rate too; the cars must have axles
-    VibrationFit(const VibrationSpectra& spectra, bool with_pitch);
+    VibrationFit(const VibrationSpectra& spectra, const ImuMount& imu, bool with_pitch);
 
     bool empty() const { return rows_.empty(); } ///< too little was driven
     double slowest_mps() const;

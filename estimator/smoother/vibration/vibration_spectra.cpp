@@ -16,6 +16,13 @@ constexpr double window_s = 5.12;
 constexpr double max_speed_ratio = 1.25; // within a window
 constexpr double class_ratio = 1.12;     // of the speeds of neighbouring classes
 constexpr double usable_share = 0.45;    // of the rate, below the log's own anti-aliasing
+constexpr double white_share = 0.4;      // of the rate, below that of make_stretch()
+
+// Bands of a window, in bins: around wheel hop (7 to 13 Hz), and the last ones used.
+constexpr std::size_t first_low_bin = 10;
+constexpr std::size_t low_bins = 15;
+constexpr std::size_t high_bins = 10;
+constexpr double looks_per_bin = 1.4; // Hann window of 5 s
 
 using Power = VibrationSpectra::Power;
 
@@ -61,25 +68,34 @@ double level_of(const Power& power, std::size_t bins) {
     return std::exp(sum / static_cast<double>(bins));
 }
 
-std::size_t bins_below(double rate_hz) {
-    const double last =
-        (usable_share * rate_hz - VibrationSpectra::first_hz) / VibrationSpectra::step_hz;
+/// Mean over the bins [from, to).
+double mean_of(const Power& power, std::size_t from, std::size_t to) {
+    return std::accumulate(power.begin() + static_cast<std::ptrdiff_t>(from),
+                           power.begin() + static_cast<std::ptrdiff_t>(to),
+                           0.0) /
+           static_cast<double>(to - from);
+}
+
+std::size_t bins_below(double hz) {
+    const double last = (hz - VibrationSpectra::first_hz) / VibrationSpectra::step_hz;
     return static_cast<std::size_t>(
         std::clamp(last, 0.0, static_cast<double>(VibrationSpectra::bins)));
 }
 
 } // namespace
 
-void add(VibrationSpectra& spectra, const Stretch& stretch, const ImuMount& imu) {
+void add(VibrationSpectra& spectra, const Stretch& stretch) {
     const auto n = static_cast<std::size_t>(std::lround(window_s / stretch.step_s)) / 2 * 2;
     if (stretch.vertical_mps2.size() < n) {
         return;
     }
-    spectra.used_bins = std::min(spectra.used_bins, bins_below(1 / stretch.step_s));
+    const std::size_t bins = bins_below(usable_share / stretch.step_s);
+    const std::size_t white_bins = bins_below(white_share / stretch.step_s);
+    spectra.used_bins = std::min(spectra.used_bins, bins);
+    spectra.step_s = stretch.step_s;
+    spectra.pitch_noise_radps = stretch.pitch_noise_radps;
     spectra.has_pitch = spectra.has_pitch && !stretch.pitch_radps.empty();
     const std::span<const float> felt[] = {stretch.vertical_mps2, stretch.pitch_radps};
-    const double noise_sd[] = {imu.noise_mps2,
-                               std::max(imu.noise_radps, stretch.pitch_noise_radps)};
     for (std::size_t from = 0; from + n <= stretch.vertical_mps2.size(); from += n / 2) {
         const auto speed = std::span{stretch.speed_mps}.subspan(from, n);
         const auto [slowest, fastest] = std::ranges::minmax(speed);
@@ -103,7 +119,13 @@ void add(VibrationSpectra& spectra, const Stretch& stretch, const ImuMount& imu)
             for (std::size_t bin = 0; bin < power.size(); ++bin) {
                 at.power[channel][bin] += power[bin] / level;
             }
-            at.noise[channel] += 2 * stretch.step_s * noise_sd[channel] * noise_sd[channel] / level;
+            at.noise[channel] += white_noise_power(1, stretch.step_s) / level;
+            if (channel == 0 && white_bins >= first_low_bin + low_bins + high_bins) {
+                spectra.windows.push_back({std::log(mean_mps),
+                                           mean_of(power, first_low_bin, first_low_bin + low_bins),
+                                           mean_of(power, white_bins - high_bins, white_bins),
+                                           looks_per_bin * high_bins});
+            }
         }
         ++at.windows;
         at.log_speed += std::log(mean_mps);

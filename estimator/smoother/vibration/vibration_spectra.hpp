@@ -22,14 +22,30 @@ struct VibrationSpectra {
         std::size_t windows = 0;
         double log_speed = 0;
         std::array<Power, channels> power{};
-        std::array<double, channels> noise{}; ///< part of `power` that is the sensor's noise
+        std::array<double, channels> noise{}; ///< part of `power` that is white noise of variance 1
     };
+    /// One window's vertical acceleration: mean power, (m/s^2)^2 a hertz.
+    struct Window {
+        double log_speed;
+        double low;   ///< around wheel hop
+        double high;  ///< at the highest frequencies that are used
+        double looks; ///< independent Fourier components in `high`
+    };
+
     std::map<int, AtSpeed> speeds; ///< by class of speed, some 12 % wide
-    std::size_t used_bins = bins;  ///< those below the logs' own limit
-    bool has_pitch = true;         ///< in all stretches
+    std::vector<Window> windows;
+    double step_s = 0;            ///< of the last stretch, ...
+    double pitch_noise_radps = 0; ///< ... and its gyro's
+    std::size_t used_bins = bins; ///< those below the logs' own limit
+    bool has_pitch = true;        ///< in all stretches
 };
 
+/// Returns the power a hertz of white noise with this standard deviation a sample.
+inline double white_noise_power(double sd, double step_s) {
+    return 2 * step_s * sd * sd;
+}
+
 /// Adds a stretch that contains vertical acceleration. Others are ignored.
-void add(VibrationSpectra& spectra, const Stretch& stretch, const ImuMount& imu);
+void add(VibrationSpectra& spectra, const Stretch& stretch);
 
 } // namespace macadam

@@ -32,8 +32,8 @@ Drives drives_in(const World& world, const Resonance& mount, double lowpass_hz =
 
 VibratingCar found_in(const Drives& drives, const Vehicle& vehicle) {
     VibrationSpectra spectra;
-    add(spectra, drives.slower.stretch, vehicle.imu);
-    add(spectra, drives.faster.stretch, vehicle.imu);
+    add(spectra, drives.slower.stretch);
+    add(spectra, drives.faster.stretch);
     return car_from_vibration(spectra, vehicle);
 }
 
@@ -120,7 +120,7 @@ TEST(CarFromVibration, TellsNothingFromOneSpeed) {
     recipe.speed_swing = 0;
     recipe.imu.mount_hz = holder.hz;
     VibrationSpectra spectra;
-    add(spectra, driven_road(recipe).stretch, {});
+    add(spectra, driven_road(recipe).stretch);
     const auto car = car_from_vibration(spectra, generic());
     EXPECT_FALSE(car.found_axles);
     EXPECT_EQ(car.mount.hz, 0);
@@ -138,11 +138,11 @@ TEST(CarFromVibration, TellsNothingFromAStillSensorOrAShortDrive) {
         still.travel_m.push_back(0.3 * static_cast<double>(k));
     }
     VibrationSpectra spectra;
-    add(spectra, still, {});
+    add(spectra, still);
     EXPECT_FALSE(car_from_vibration(spectra, generic()).found_axles);
     still.vertical_mps2.resize(100);
     VibrationSpectra short_drive;
-    add(short_drive, still, {});
+    add(short_drive, still);
     EXPECT_TRUE(short_drive.speeds.empty());
     EXPECT_FALSE(car_from_vibration(short_drive, generic()).found_axles);
 }
