@@ -13,7 +13,7 @@ using Vector = std::vector<double>;
 constexpr double level_window_m = 100; // length scale of roughness; 400 increments suffice
 constexpr double share_window_m = 400; // the determined share depends on speed and noise only
 constexpr double min_share = 0.02;     // lower limit against the scatter of the draw
-constexpr double level_damping = 0.7;  // of a round, in the logarithm
+constexpr double level_damping = 0.7;  // of a round, in the logarithm, for half the difference
 constexpr double tail_damping = 0.6;
 constexpr double cross_damping = 0.5;
 constexpr double max_cross = 0.9;      // correlation of mean and half difference
@@ -98,7 +98,11 @@ level_after(const Increment& old, const Moments& m, std::size_t i, ObservedModes
     } else if (!felt.mean) {
         mean = half / half_of_mean;
     }
-    Increment now{damped(old.mean, mean, level_damping), damped(old.half, half, level_damping), 0};
+    // The less the readings determine of a level, the less of its way a round goes: it is taken
+    // further, or a smooth road is still on its way down from IRI 2 in the last round.
+    const double of_mean = felt.mean ? 2 - mean_share : level_damping;
+    const double of_half = felt.half ? level_damping : of_mean;
+    Increment now{damped(old.mean, mean, of_mean), damped(old.half, half, of_half), 0};
     if (cross && felt.mean && felt.half) {
         const double most = max_cross * std::sqrt(now.mean * now.half);
         const double step = (m.cross[i] - old.cross) / std::sqrt(mean_share * half_share);
