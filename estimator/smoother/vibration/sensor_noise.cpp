@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace macadam {
 namespace {
@@ -96,14 +94,6 @@ double sensor_noise_mps2(const VibrationSpectra& spectra, double stated_mps2) {
         }
         at += by;
         fit = next;
-    }
-    if (std::getenv("NOISE_DBG")) {
-        std::fprintf(stderr,
-                     "noise %.4f ratio %.3f byspeed %.2f windows %zu\n",
-                     stated_mps2 * std::exp((at[0] - log_stated) / 2),
-                     std::exp(at[1]),
-                     at[2],
-                     windows.size());
     }
     return std::max(stated_mps2, stated_mps2 * std::exp((at[0] - log_stated) / 2));
 }
