@@ -134,7 +134,10 @@ std::vector<Leftover> leftovers_of(const fs::path& made) {
 
 void remove_old_leftovers_of(const fs::path& made) {
     constexpr std::time_t least_age_s = 60;
-    for (const auto& leftover : leftovers_of(made)) {
+    // Beside it alone: a folder of this name may be a link of another user to one of ours.
+    std::vector<Leftover> found;
+    add_leftovers(found, folder_of(made), begin_of_names(made));
+    for (const auto& leftover : found) {
         struct stat status {};
         if (::lstat(leftover.name.c_str(), &status) == 0 && status.st_uid == ::geteuid() &&
             std::time(nullptr) - status.st_mtime >= least_age_s) {

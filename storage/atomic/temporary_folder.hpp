@@ -47,7 +47,7 @@ struct Leftover {
 /// names. Files that running programs still use are not included.
 std::vector<Leftover> leftovers_of(const std::filesystem::path& made);
 
-/// Removes what killed programs of this user left beside and inside `made`, except what is younger
+/// Removes what killed programs of this user left beside `made`, except what is younger
 /// than a minute: its program may be about to mark it as in use. What cannot be removed stays.
 void remove_old_leftovers_of(const std::filesystem::path& made);
 

@@ -82,6 +82,16 @@ TEST(TemporaryFolder, LeftByAKilledProgramGoesOnceItIsOldAndNobodyUsesIt) {
     EXPECT_TRUE(fs::exists(used.path()));
 }
 
+TEST(TemporaryFolder, OfALinkedFolderStaysWhereNamesInASharedFolderAreCleared) {
+    const auto folder = test_folder();
+    const auto precious = folder / "home/.part-0123456789ab";
+    written(precious, "survey", "1");
+    fs::last_write_time(precious, fs::file_time_type::clock::now() - std::chrono::minutes{2});
+    fs::create_directory_symlink(folder / "home", folder / "a"); // by another user of /tmp
+    remove_old_leftovers_of(folder / "a");
+    EXPECT_EQ(content_of(precious / "survey"), "1");
+}
+
 TEST(TemporaryFolder, OfANameAsLongAsTheSystemTakesFits) {
     const auto folder = test_folder();
     const std::string longest(255, 'x');
