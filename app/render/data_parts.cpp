@@ -93,6 +93,21 @@ GeoBox centred(const GeoBox& area, const std::vector<MeasuredLength>& measured) 
             .north_deg = lat_deg + half_height_deg};
 }
 
+bool overlap(const GeoBox& a, const GeoBox& b) {
+    return a.west_deg < b.east_deg && b.west_deg < a.east_deg && a.south_deg < b.north_deg &&
+           b.south_deg < a.north_deg;
+}
+
+constexpr double rounding = 1e-6; // of a cell: a place at its edge is in no other
+
+int first_cell(double place) {
+    return std::max(0, int(std::floor(place + rounding)));
+}
+
+int past_cell(double place, int cells) {
+    return std::min(cells, int(std::ceil(place - rounding)));
+}
+
 /// Sorts areas from west to east, or from north to south if they lie rather so.
 void sort_for_reading(std::vector<GeoBox>& areas) {
     GeoBox all;
@@ -181,7 +196,9 @@ std::vector<GeoBox> densest_areas(const std::vector<MeasuredLength>& measured,
     const double lat_deg_per_m = (box.north_deg - box.south_deg) / std::max(1.0, height_m);
 
     const double cell_m = std::min(room.width_m, room.height_m) / cells_per_side;
-    const auto cells = [&](double length_m) { return std::max(1, int(length_m / cell_m + 0.5)); };
+    const auto cells = [&](double length_m) {
+        return std::max(1, int(std::ceil(length_m / cell_m - rounding)));
+    };
     if (!(width_m / cell_m * (height_m / cell_m) < max_cells)) {
         return {};
     }
@@ -206,18 +223,33 @@ std::vector<GeoBox> densest_areas(const std::vector<MeasuredLength>& measured,
         if (inside_m <= 0 || inside_m < min_share * first_m) {
             break;
         }
-        for (int row = area.row; row < area.row + rows; ++row) {
-            for (int column = area.column; column < area.column + columns; ++column) {
+        const double west_deg = box.west_deg + area.column * cell_m * lon_deg_per_m;
+        const double south_deg = box.south_deg + area.row * cell_m * lat_deg_per_m;
+        const GeoBox found{.west_deg = west_deg,
+                           .south_deg = south_deg,
+                           .east_deg = west_deg + room.width_m * lon_deg_per_m,
+                           .north_deg = south_deg + room.height_m * lat_deg_per_m};
+        const auto moved = centred(found, measured);
+        const bool is_free =
+            std::ranges::none_of(areas, [&](const GeoBox& other) { return overlap(moved, other); });
+        areas.push_back(is_free ? moved : found);
+        const auto cell = [&](double deg, double from_deg, double deg_per_m) {
+            return (deg - from_deg) / deg_per_m / cell_m;
+        };
+        const auto& taken = areas.back();
+        const int past_row =
+            past_cell(cell(taken.north_deg, box.south_deg, lat_deg_per_m), grid.rows);
+        const int past_column =
+            past_cell(cell(taken.east_deg, box.west_deg, lon_deg_per_m), grid.columns);
+        for (int row = first_cell(cell(taken.south_deg, box.south_deg, lat_deg_per_m));
+             row < past_row;
+             ++row) {
+            for (int column = first_cell(cell(taken.west_deg, box.west_deg, lon_deg_per_m));
+                 column < past_column;
+                 ++column) {
                 grid.at(column, row) = -first_m; // no other area may overlap
             }
         }
-        const double west_deg = box.west_deg + area.column * cell_m * lon_deg_per_m;
-        const double south_deg = box.south_deg + area.row * cell_m * lat_deg_per_m;
-        areas.push_back(centred({.west_deg = west_deg,
-                                 .south_deg = south_deg,
-                                 .east_deg = west_deg + room.width_m * lon_deg_per_m,
-                                 .north_deg = south_deg + room.height_m * lat_deg_per_m},
-                                measured));
     }
     sort_for_reading(areas);
     return areas;

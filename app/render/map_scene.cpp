@@ -175,12 +175,21 @@ bool holds(const GeoBox& outer, const GeoBox& inner) {
            inner.east_deg <= outer.east_deg && inner.north_deg <= outer.north_deg;
 }
 
-void expect_roads(const MapScene& scene) {
+void expect_roads(const MapPlan& plan) {
+    const auto& scene = plan.scene();
     const auto& box = scene.box;
     const auto touches = [&](const MapLine& line) {
         return std::ranges::any_of(line.line, [&](auto& point) { return contains(box, point); });
     };
     if (std::ranges::none_of(scene.lines, touches)) {
+        if (scene.scale_denominator > 0) {
+            throw InputError{fmt::format("nothing to draw: there is no road within the sheet at "
+                                         "1:{:.0f} around {:.5f},{:.5f}, "
+                                         "expected a smaller scale, or --bbox around a road",
+                                         scene.scale_denominator,
+                                         (box.south_deg + box.north_deg) / 2,
+                                         (box.west_deg + box.east_deg) / 2)};
+        }
         throw InputError{fmt::format(
             "nothing to draw: the database has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
             box.south_deg,
@@ -367,7 +376,7 @@ MapPlan load_map(const StoreReader& store, const MapRequest& request, const Load
     if (auto* const locator = plan.locator()) {
         set_background(*locator, locator->ground(), false);
     }
-    expect_roads(plan.scene());
+    expect_roads(plan);
     return plan;
 }
 

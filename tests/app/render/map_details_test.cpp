@@ -55,6 +55,22 @@ TEST(MapDetails, FollowALongRoadInItsOrder) {
     EXPECT_GT(areas[1].south_deg, areas[2].south_deg);
 }
 
+TEST(MapDetails, ShowNothingTwiceThoughEachIsCentred) {
+    std::vector<MeasuredLength> measured;
+    for (const double lon_deg : {16.030, 16.048}) { // half a sheet apart: both at its edges
+        add_town(measured, {48.2, lon_deg}, 12);
+    }
+    add_town(measured, {48.2, 16.064}, 10);
+    const auto areas = densest_areas(measured, country, room);
+    ASSERT_GE(areas.size(), 2U);
+    for (std::size_t i = 0; i + 1 < areas.size(); ++i) {
+        const auto& a = areas[i];
+        const auto& b = areas[i + 1];
+        EXPECT_TRUE(a.east_deg <= b.west_deg || b.east_deg <= a.west_deg ||
+                    a.south_deg >= b.north_deg || b.south_deg >= a.north_deg);
+    }
+}
+
 TEST(MapDetails, AreNoneWithoutMeasurements) {
     EXPECT_THAT(densest_areas({}, country, room), IsEmpty());
 }
