@@ -38,8 +38,9 @@ constexpr std::array place_looks{PlaceLook{20, true, 1e9},
 constexpr PlaceLook marked_look{12.5, true, 1e12};
 constexpr double marked_px = 6;
 
-/// Returns the names of places at a scale, the important ones first. Names of areas are centred on
-/// them; where the map is too small to show areas, a symbol marks the place.
+/// Returns the names of places at a scale, the important ones first. Names of
+/// areas are centred on them; where the map is too small to show areas, a
+/// symbol marks the place.
 std::vector<PointName> point_names(const MapScene& scene,
                                    const MapFrame& frame,
                                    double paper_unit,
@@ -73,7 +74,8 @@ LabelConfig label_config(double paper_unit) {
             .moves_others = true};
 }
 
-/// Returns the distance from the centre of a road to the edge of its painted line.
+/// Returns the distance from the centre of a road to the edge of its painted
+/// line.
 double painted_half_width_px(const LineWidths& widths, const MapLine& line) {
     if (line.iri_class < 0) {
         return core_radius_px(widths, line.rank, true);
@@ -136,6 +138,7 @@ std::vector<Label> map_labels(const MapScene& scene,
             for (const double y : {mark.top, mark.bottom}) {
                 cell.kept_free.push_back({mark.left, y - air, mark.right, y + air});
             }
+            cell.kept_free.push_back(inset(detail_tab(mark, layout), -air));
         }
     }
     auto config = label_config(layout.paper_unit);

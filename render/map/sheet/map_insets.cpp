@@ -226,6 +226,11 @@ detail_marks(const MapScene& scene, const MapFrame& frame, const Layout& layout)
     return marks;
 }
 
+PixelBox detail_tab(const PixelBox& mark, const Layout& layout) {
+    const double side = std::round(20 * layout.unit);
+    return {mark.left, mark.top, mark.left + side, mark.top + side};
+}
+
 void draw_detail_marks(DrawTarget& target,
                        const MapScene& scene,
                        const MapFrame& frame,
@@ -234,14 +239,14 @@ void draw_detail_marks(DrawTarget& target,
                        TypeSetter& setter) {
     const double line = std::max(1.0, std::round(1.5 * layout.unit));
     const TextLook look{letter_px * layout.unit, true};
-    const double tab = std::round(20 * layout.unit);
     std::string letter = "A";
     for (const auto& mark : detail_marks(scene, frame, layout)) {
         outline(target, mark, line, colours.ink);
-        target.fill({{mark.left, mark.top, mark.left + tab, mark.top + tab}}, colours.ink);
+        const auto tab = detail_tab(mark, layout);
+        target.fill({{tab.left, tab.top, tab.right, tab.bottom}}, colours.ink);
         target.write(setter.mask(letter, look),
-                     {std::round(mark.left + (tab - setter.width_px(letter, look)) / 2),
-                      std::round(mark.top + tab * 0.76)},
+                     {std::round(tab.left + (tab.width() - setter.width_px(letter, look)) / 2),
+                      std::round(tab.top + tab.height() * 0.76)},
                      colours.page);
         ++letter[0];
     }

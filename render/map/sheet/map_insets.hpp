@@ -71,6 +71,9 @@ void draw_inset_panel(DrawTarget& target,
 std::vector<PixelBox>
 detail_marks(const MapScene& scene, const MapFrame& frame, const Layout& layout);
 
+/// Returns the ground of a detail's letter, in a corner of its outline.
+PixelBox detail_tab(const PixelBox& mark, const Layout& layout);
+
 /// Outlines the details on the map, each with its letter.
 void draw_detail_marks(DrawTarget& target,
                        const MapScene& scene,

@@ -2,6 +2,7 @@
 
 #include "render/labels/label_lines.hpp"
 #include "render/map/map_plan.hpp"
+#include "render/map/sheet/map_insets.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,6 +11,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace macadam::testing {
 namespace {
@@ -163,6 +165,33 @@ TEST(MapLabels, OfACityAreManyAndNoneIsOnAnotherACoreOrTheLegend) {
                 EXPECT_TRUE(is_place || distance_px(core, letter) > radius_px - 0.01) << label.name;
             }
         }
+    }
+}
+
+TEST(MapLabels, KeepOffTheLettersOfDetails) {
+    const City plain;
+    const auto mitte = std::ranges::find(plain.labels, "Mitte", &Label::name);
+    ASSERT_NE(mitte, plain.labels.end());
+    // Its name is inside the outline, at the corner of the letter.
+    const double air = 6 * plain.layout.paper_unit;
+    const auto middle = to_pixel(plain.placement.frame, at(0, 0));
+    const double m_per_px = metres_per_px(plain.placement.frame, middle.y);
+    const double west_m = (mitte->box.left - air - middle.x) * m_per_px;
+    const double north_m = (middle.y - mitte->box.top + air) * m_per_px;
+    auto scene = city();
+    scene.insets.push_back({.box = {.west_deg = at(west_m, 0).lon_deg,
+                                    .south_deg = at(0, north_m - 900).lat_deg,
+                                    .east_deg = at(west_m + 1200, 0).lon_deg,
+                                    .north_deg = at(0, north_m).lat_deg},
+                            .name = "Mitte",
+                            .scale_denominator = 2500});
+    const City city{.scene = std::move(scene)};
+    const auto marks = detail_marks(city.scene, city.placement.frame, city.layout);
+    const auto tab = corners_of(detail_tab(marks.front(), city.layout));
+    const auto is_on_tab = [&](const LabelQuad& letter) { return do_overlap(letter, tab); };
+    EXPECT_TRUE(std::ranges::any_of(mitte->letters, is_on_tab)); // without the detail
+    for (const auto& label : city.labels) {
+        EXPECT_TRUE(std::ranges::none_of(label.letters, is_on_tab)) << label.name;
     }
 }
 
