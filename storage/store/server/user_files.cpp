@@ -1,6 +1,7 @@
 #include "storage/store/server/user_files.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/files/sha256.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/text/text.hpp"
 
@@ -66,10 +67,12 @@ fs::path server_key_file(const std::string& key_id) {
     return *folder / "macadam" / "keys" / (key_id + ".key");
 }
 
-fs::path network_image_file(const std::string& rows) {
+fs::path network_image_file(const std::string& address, const std::string& rows) {
     expect_plain(rows, "network_rows");
+    Sha256 hash;
+    hash.add(address);
     return cache_folder("networks/ keeps the roads of databases on servers") / "networks" /
-           fmt::format("{}-{}.gpkg", rows, store_version);
+           fmt::format("{}-{}-{}.gpkg", hash.hex(), rows, store_version);
 }
 
 fs::path mirror_folder() {

@@ -14,12 +14,12 @@ namespace macadam {
 /// \throws InputError  if that is no id, or there is no home folder.
 std::filesystem::path server_key_file(const std::string& key_id);
 
-/// File in which the roads of a database are kept: $XDG_CACHE_HOME/macadam/networks/NAME.gpkg, else
-/// in ~/.cache.
+/// File in which the roads and settings of a database are kept, as the server at this address gave
+/// them: $XDG_CACHE_HOME/macadam/networks/NAME.gpkg, else in ~/.cache.
 ///
-/// \param rows  name of the network's rows, as the server states it
+/// \param rows  name of the network's rows, as the server states it: another one may state the same
 /// \throws InputError  if it is none, or there is no home folder.
-std::filesystem::path network_image_file(const std::string& rows);
+std::filesystem::path network_image_file(const std::string& address, const std::string& rows);
 
 /// Folder in which copies of databases are kept for their next reader:
 /// $XDG_CACHE_HOME/macadam/copies, else in ~/.cache.

@@ -46,7 +46,7 @@ std::shared_ptr<StoreConnection> open_network_image(ServerConnection& server,
                                                     const ServerSettings& settings,
                                                     const Progress& progress) {
     namespace fs = std::filesystem;
-    const auto file = network_image_file(settings.network_rows);
+    const auto file = network_image_file(server.address(), settings.network_rows);
     std::error_code error;
     if (!fs::exists(file, error)) {
         fs::create_directories(file.parent_path(), error);

@@ -101,6 +101,22 @@ TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFile)
     }
 }
 
+TEST_F(ServerImports, NeverWorkByRoadsAndSettingsThatAnotherServerGave) {
+    const auto other = database_.server().new_database("other");
+    static_cast<void>(new_store(folder_ / "other.gpkg"));
+    copy_to_server(folder_ / "other.gpkg", other, {}, {});
+    static_cast<void>(database_.import());
+    ServerConnection{other}.run("UPDATE macadam.meta SET value = 'crowd' WHERE key = 'privacy'");
+    ServerConnection{other}.rows(
+        "UPDATE macadam.meta SET value = $1 WHERE key = 'network_rows'",
+        {ServerConnection{database_.name()}
+             .rows("SELECT value FROM macadam.meta WHERE key = 'network_rows'")
+             .at(0)
+             .at(0)});
+    EXPECT_EQ(open_server_import(other).image->settings.privacy, PrivacyProfile::crowd);
+    EXPECT_EQ(open_server_import(database_.name()).image->settings.privacy, PrivacyProfile::own);
+}
+
 TEST_F(ServerImports, BesideWhoMaintainsTheDatabaseHaveTheDigestOfAFile) {
     constexpr int trips = 18;
     const std::vector<SegmentKey> resurfaced{{1, true, 2}, {1, false, 5}};

@@ -3,6 +3,7 @@
 #include "storage/store/server/reader/server_reader.hpp"
 
 #include "storage/postgres/server_connection.hpp"
+#include "storage/store/fusion/store_version.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/reader/chunk_choice.hpp"
 #include "storage/store/server/reader/local_copy.hpp"
