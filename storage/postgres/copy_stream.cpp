@@ -1,13 +1,13 @@
 #include "storage/postgres/copy_stream.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/server_result.hpp"
 
 #include <fmt/format.h>
 #include <libpq-fe.h>
 
 #include <bit>
 #include <concepts>
-#include <memory>
 #include <utility>
 
 namespace macadam {
@@ -18,11 +18,6 @@ constexpr std::size_t header_size = 19; // signature, flags, length of the exten
 constexpr std::size_t send_at = 1 << 16;
 constexpr std::size_t longest_row = std::size_t{64} << 20;  // far above any of ours
 constexpr std::size_t longest_field = std::size_t{1} << 30; // by PostgreSQL
-
-struct Clear {
-    void operator()(PGresult* result) const { PQclear(result); }
-};
-using Result = std::unique_ptr<PGresult, Clear>;
 
 template <std::unsigned_integral Number>
 void append_number(std::string& to, Number number) {
@@ -54,7 +49,7 @@ CopyWriter::CopyWriter(ServerConnection& server, const std::string& into, int co
     : server_{&server}, columns_{columns} {
     const auto sql =
         server.with_begin(fmt::format("COPY {} FROM STDIN WITH (FORMAT binary)", into));
-    const Result result{PQexec(server.handle(), sql.c_str())};
+    const ServerResult result{PQexec(server.handle(), sql.c_str())};
     if (PQresultStatus(result.get()) != PGRES_COPY_IN) {
         server.fail("the server refused", result.get());
     }
@@ -132,8 +127,8 @@ void CopyWriter::finish() {
     if (PQputCopyEnd(server_->handle(), nullptr) != 1) {
         server_->fail("the connection broke, nothing was written", nullptr);
     }
-    Result last;
-    for (Result result{PQgetResult(server_->handle())}; result;
+    ServerResult last;
+    for (ServerResult result{PQgetResult(server_->handle())}; result;
          result.reset(PQgetResult(server_->handle()))) {
         last = std::move(result);
         if (PQresultStatus(last.get()) != PGRES_COMMAND_OK) {
@@ -221,7 +216,7 @@ CopyReader::CopyReader(ServerConnection& server,
     : server_{&server}, table_{std::move(table)}, row_{server, table_}, columns_{columns} {
     const auto sql =
         server.with_begin(fmt::format("COPY {} TO STDOUT WITH (FORMAT binary)", source));
-    const Result result{PQexec(server.handle(), sql.c_str())};
+    const ServerResult result{PQexec(server.handle(), sql.c_str())};
     if (PQresultStatus(result.get()) != PGRES_COPY_OUT) {
         server.fail("the server refused", result.get());
     }
@@ -237,7 +232,7 @@ bool CopyReader::next() {
         const int size = PQgetCopyData(server_->handle(), &buffer_, 0);
         if (size < 0) {
             is_over_ = true;
-            for (Result result{PQgetResult(server_->handle())}; result;
+            for (ServerResult result{PQgetResult(server_->handle())}; result;
                  result.reset(PQgetResult(server_->handle()))) {
                 if (PQresultStatus(result.get()) != PGRES_COMMAND_OK) {
                     server_->fail("reading failed", result.get());

@@ -3,6 +3,7 @@
 #include "estimator/common/exact_number.hpp"
 #include "estimator/common/utf8.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/postgres/server_result.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/format.h>
@@ -18,11 +19,6 @@ namespace {
 constexpr int oldest_server = 150000; // PQserverVersion of 15.0
 constexpr std::size_t longest_words = 400;
 constexpr std::size_t max_warnings = 100;
-
-struct Clear {
-    void operator()(PGresult* result) const { PQclear(result); }
-};
-using Result = std::unique_ptr<PGresult, Clear>;
 
 /// First line of a server's message, without its severity.
 std::string shown(std::string_view words) {
@@ -62,26 +58,6 @@ bool is_trouble(std::string_view state) {
 }
 
 constexpr std::string_view refused = "the server refused";
-
-bool is_done(const PGresult* result) {
-    const auto status = PQresultStatus(result);
-    return status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
-}
-
-std::vector<ServerRow> rows_in(const PGresult* result) {
-    std::vector<ServerRow> rows(static_cast<std::size_t>(PQntuples(result)));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (int column = 0; column < PQnfields(result); ++column) {
-            const int row = static_cast<int>(i);
-            rows[i].push_back(PQgetisnull(result, row, column) != 0
-                                  ? std::nullopt
-                                  : std::optional{std::string(PQgetvalue(result, row, column),
-                                                              static_cast<std::size_t>(PQgetlength(
-                                                                  result, row, column)))});
-        }
-    }
-    return rows;
-}
 
 /// Values as libpq takes them.
 class Parameters {
@@ -242,10 +218,10 @@ public:
             server_->fail(when_broken, nullptr);
         }
         std::vector<Answer> answers;
-        Result failed;
+        ServerResult failed;
         bool is_last = false; // that failed
         for (const auto& request : requests_) {
-            Result result{PQgetResult(connection)};
+            ServerResult result{PQgetResult(connection)};
             if (!result || PQstatus(connection) != CONNECTION_OK) {
                 server_->fail(when_broken, result.get());
             }
@@ -264,7 +240,7 @@ public:
             }
             result.reset(PQgetResult(connection)); // null: the end of its answer
         }
-        const Result end{PQgetResult(connection)};
+        const ServerResult end{PQgetResult(connection)};
         if (PQresultStatus(end.get()) != PGRES_PIPELINE_SYNC ||
             PQexitPipelineMode(connection) != 1) {
             server_->fail(when_broken, failed ? failed.get() : end.get());
@@ -292,7 +268,7 @@ std::string ServerConnection::with_begin(const std::string& sql) {
 }
 
 void ServerConnection::run(const std::string& sql) {
-    const Result result{PQexec(connection_.get(), with_begin(sql).c_str())};
+    const ServerResult result{PQexec(connection_.get(), with_begin(sql).c_str())};
     if (!is_done(result.get())) {
         fail(refused, result.get());
     }
@@ -307,14 +283,14 @@ ServerConnection::rows(const std::string& sql,
         return std::move(pipeline.answers(refused).front().rows);
     }
     const Parameters parameters{values};
-    const Result result{PQexecParams(connection_.get(),
-                                     sql.c_str(),
-                                     parameters.count(),
-                                     nullptr,
-                                     parameters.values(),
-                                     nullptr,
-                                     nullptr,
-                                     0)};
+    const ServerResult result{PQexecParams(connection_.get(),
+                                           sql.c_str(),
+                                           parameters.count(),
+                                           nullptr,
+                                           parameters.values(),
+                                           nullptr,
+                                           nullptr,
+                                           0)};
     if (!is_done(result.get())) {
         fail(refused, result.get());
     }
@@ -360,8 +336,10 @@ std::int64_t ServerConnection::number(const std::string& sql) {
     return found.front();
 }
 
+// Not as the role or database has it by default: who fuses reads drives after the marks.
 void ServerConnection::begin(bool reads_only) {
-    begin_ = reads_only ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY;" : "BEGIN;";
+    begin_ = reads_only ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY;"
+                        : "BEGIN ISOLATION LEVEL READ COMMITTED;";
 }
 
 void ServerConnection::commit(std::span<const ServerStatement> last) {
@@ -392,7 +370,7 @@ void ServerConnection::commit(std::span<const ServerStatement> last) {
 
 void ServerConnection::roll_back() {
     if (std::exchange(begin_, {}).empty()) {
-        const Result ignored{PQexec(connection_.get(), "ROLLBACK")};
+        const ServerResult ignored{PQexec(connection_.get(), "ROLLBACK")};
     }
 }
 

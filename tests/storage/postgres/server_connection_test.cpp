@@ -64,6 +64,15 @@ TEST_F(ServerConnections, RunNoStatementAfterOneThatFailsAndGoOnLater) {
     EXPECT_EQ(server_.rows_of_all(std::array{with(divide_, 1)}).at(0).at(0).at(0), "1");
 }
 
+TEST_F(ServerConnections, SeeWhatOthersCommitWhateverTheRolesDefault) {
+    ServerConnection strict{address_ +
+                            "&options=-c%20default_transaction_isolation%3Dserializable"};
+    ServerTransaction one{strict};
+    EXPECT_EQ(strict.number("SELECT count(*) FROM public.number"), 0);
+    server_.rows_of_all(std::array{with(insert_, 1)});
+    EXPECT_EQ(strict.number("SELECT count(*) FROM public.number"), 1);
+}
+
 TEST_F(ServerConnections, CommitTheLastStatementsOrNothing) {
     {
         ServerTransaction one{server_};
