@@ -9,6 +9,7 @@
 #include "storage/text/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -31,6 +32,12 @@ void expect_crowd(const std::string& profile, const std::filesystem::path& file)
 void tell_of_open_activity(ServerConnection& server, const Console& console) {
     if (is_activity_open(server)) {
         warn_of_open_activity(server.address(), console);
+    } else if (const auto others = open_databases_beside(server); !others.empty()) {
+        console.warn(fmt::format("{}: whoever may connect to other databases of the server sees in "
+                                 "its locks over which roads trips come in; a superuser ends this "
+                                 "with 'REVOKE CONNECT ON DATABASE {} FROM PUBLIC'",
+                                 server.address(),
+                                 fmt::join(others, ", ")));
     }
 }
 

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 namespace macadam {
 namespace {
 
@@ -38,20 +41,29 @@ CREATE POLICY of_all ON macadam.meta FOR SELECT USING (key IN
      'privacy', 'published_rows', 'rows_in_order', 'segment_length_m', 'segments'));
 )sql";
 
-/// All that a role without trips has is taken away, whoever granted it; the view stands for what it
-/// gets instead.
+/// All that a role without trips has is taken away, whoever granted it, of columns, too; the view
+/// stands for what it gets instead. Others keep what they have, but no longer hand it on.
 constexpr const char* readers_tables = R"sql(
 DO $$
 DECLARE
     reader text;
     sees_map boolean;
 BEGIN
+    FOR reader IN
+        SELECT DISTINCT grantee::regrole FROM pg_class CROSS JOIN aclexplode(relacl)
+        WHERE relnamespace = 'macadam'::regnamespace AND is_grantable AND grantee <> relowner
+    LOOP
+        EXECUTE format('REVOKE GRANT OPTION FOR ALL ON ALL TABLES IN SCHEMA macadam FROM %s CASCADE',
+                       reader);
+    END LOOP;
     FOR reader, sees_map IN
         SELECT CASE grantee WHEN 0 THEN 'PUBLIC' ELSE grantee::regrole::text END,
                bool_or(relname = 'roughness')
-        FROM pg_class CROSS JOIN aclexplode(relacl)
-        WHERE relnamespace = 'macadam'::regnamespace
-        AND (grantee = 0 OR NOT has_table_privilege(nullif(grantee, 0), 'macadam.trip', 'SELECT'))
+        FROM (SELECT relname, relacl AS acl FROM pg_class
+              WHERE relnamespace = 'macadam'::regnamespace
+              UNION ALL SELECT relname, attacl FROM pg_attribute JOIN pg_class ON pg_class.oid = attrelid
+              WHERE relnamespace = 'macadam'::regnamespace) AS granted CROSS JOIN aclexplode(acl)
+        WHERE grantee = 0 OR NOT has_table_privilege(nullif(grantee, 0), 'macadam.trip', 'SELECT')
         GROUP BY grantee
     LOOP
         EXECUTE format('REVOKE ALL ON ALL TABLES IN SCHEMA macadam FROM %s CASCADE', reader);
@@ -79,7 +91,8 @@ DECLARE
         WHERE pg_class.oid = 'macadam.trip'::regclass AND grantee <> 0);
 BEGIN
     FOR part IN SELECT 'FUNCTION ' || oid::regprocedure FROM pg_proc
-        WHERE pronamespace = 'pg_catalog'::regnamespace AND (proname ~
+        WHERE (pronamespace = 'pg_catalog'::regnamespace OR proname ~ '^pg_stat_statements')
+        AND (proname ~
         '^pg_(stat_|try_advisory_|advisory_|current_wal_|last_wal_|control_checkpoint|control_recovery)'
         OR proname IN ('pg_lock_status', 'pg_blocking_pids', 'pg_safe_snapshot_blocking_pids',
         'pg_relation_size', 'pg_table_size', 'pg_indexes_size', 'pg_total_relation_size',
@@ -106,6 +119,12 @@ END $$;
 
 } // namespace
 
+void act_as_owner(ServerConnection& server) {
+    const auto owner = server.rows("SELECT nspowner::regrole FROM pg_namespace"
+                                   " WHERE nspname = 'macadam'");
+    server.run(fmt::format("SET LOCAL ROLE {}", owner.at(0).at(0).value_or("")));
+}
+
 bool is_crowd(ServerConnection& server) {
     return server.number("SELECT count(*) FROM macadam.meta WHERE key = 'privacy'"
                          " AND value = 'crowd'") != 0;
@@ -131,6 +150,17 @@ void show_publications_alone(ServerConnection& server) {
 bool is_activity_open(ServerConnection& server) {
     return server.number("SELECT has_function_privilege('public', 'pg_lock_status()', 'EXECUTE')"
                          "::integer") != 0;
+}
+
+std::vector<std::string> open_databases_beside(ServerConnection& server) {
+    std::vector<std::string> names;
+    for (const auto& row :
+         server.rows("SELECT datname FROM pg_database WHERE datallowconn AND datname <>"
+                     " current_database() AND has_database_privilege('public', oid, 'CONNECT')"
+                     " ORDER BY datname")) {
+        names.push_back(row.at(0).value_or(""));
+    }
+    return names;
 }
 
 void expect_one_server(ServerConnection& server) {

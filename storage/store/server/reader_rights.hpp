@@ -2,7 +2,16 @@
 
 #include "storage/postgres/server_connection.hpp"
 
+#include <string>
+#include <vector>
+
 namespace macadam {
+
+/// Takes the role of the owner of schema `macadam` until the end of the transaction, so that what
+/// is created belongs to it.
+///
+/// \throws InputError  if the role may not.
+void act_as_owner(ServerConnection& server);
 
 /// Tests whether a database on a server is a crowd's.
 bool is_crowd(ServerConnection& server);
@@ -17,6 +26,10 @@ void show_publications_alone(ServerConnection& server);
 
 /// Tests whether statistics, sizes and locks of the server are open to all its roles.
 bool is_activity_open(ServerConnection& server);
+
+/// Lists other databases of the server to which all its roles may connect: there, too, they see
+/// locks and statistics of this one.
+std::vector<std::string> open_databases_beside(ServerConnection& server);
 
 /// Refuses a crowd on several servers: readers' rights are those of one.
 ///

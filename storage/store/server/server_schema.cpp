@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/jobs/job_schema.hpp"
+#include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_schema_sql.hpp"
 #include "storage/store/server/server_tables.hpp"
 #include "storage/styles/road_style.hpp"
@@ -219,6 +220,7 @@ void expect_server_schema(ServerConnection& server) {
 int upgrade_server_schema(ServerConnection& server) {
     server.begin(false);
     static_cast<void>(version_of(server)); // says what is missing
+    act_as_owner(server);                  // who would be shut out of tables of another role
     server.run("LOCK TABLE macadam.migration IN SHARE ROW EXCLUSIVE MODE");
     const auto version = version_of(server);
     run_migrations_after(version, server);

@@ -1,5 +1,6 @@
 // A database of other people's cars, from `init --privacy crowd` to what is handed on.
 
+#include "storage/postgres/server_connection.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
@@ -203,7 +204,12 @@ TEST_F(Crowd, IsOnAServerWhatItIsInAFile) {
     expect_same({"query", "--segment", "6+0003", "--passes", "--format", "csv"});
     expect_same({"export", "-o", "-", "--format", "csv"});
     EXPECT_THAT(run({"publish", address}, 1).err, HasSubstr("can be published once a month"));
-    EXPECT_EQ(run({"privacy", server.address("roads"), "crowd"}).err, "");
+    const std::vector<std::string> hide{"privacy", server.address("roads"), "crowd"};
+    EXPECT_THAT(run(hide).err,
+                HasSubstr("'REVOKE CONNECT ON DATABASE postgres, template1 FROM PUBLIC'"));
+    ServerConnection{server.address()}.run(
+        "REVOKE CONNECT ON DATABASE postgres, template1 FROM PUBLIC");
+    EXPECT_EQ(run(hide).err, "");
     EXPECT_THAT(run({"cells", server.address("roads"), "--move", "1", "--to", address}, 1).err,
                 HasSubstr("has no cell 1"));
 

@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/postgres/role_grants.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_tables.hpp"
 
@@ -289,12 +290,6 @@ void create_front(ServerConnection& front) {
 
 std::string cell_table(const std::string& parent, std::int32_t cell, std::int64_t number) {
     return fmt::format("{}_{}_{}", parent, cell, number);
-}
-
-void act_as_owner(ServerConnection& front) {
-    const auto owner = front.rows("SELECT nspowner::regrole FROM pg_namespace"
-                                  " WHERE nspname = 'macadam'");
-    front.run(fmt::format("SET LOCAL ROLE {}", owner.at(0).at(0).value_or("")));
 }
 
 std::optional<CellServer> cell_server_at(ServerConnection& front, const std::string& address) {

@@ -26,12 +26,6 @@ std::optional<CellServer> cell_server_at(ServerConnection& front, const std::str
 ///                     other database has a schema `macadam`, or cannot be reached.
 CellServer add_cell_server(ServerConnection& front, const std::string& address);
 
-/// Takes the role of the owner of schema `macadam` until the end of the transaction, so that what
-/// is created belongs to it.
-///
-/// \throws InputError  if the role may not.
-void act_as_owner(ServerConnection& front);
-
 /// Base name of the tables of a cell on another server: "drive_34521_7".
 std::string cell_table(const std::string& parent, std::int32_t cell, std::int64_t number);
 

@@ -64,9 +64,7 @@ public:
               " WHERE segment.fid = ?")} {}
 
     void run() {
-        if (keys_of("way") != nullptr) {
-            add_missing_cells();
-        }
+        const bool is_on_new_tiles = keys_of("way") != nullptr && add_missing_cells();
         const bool is_published_anew = has_new_publication();
         // Away first, references before what they refer to; then new rows the other way.
         for (const auto& table : std::views::reverse(server_tables())) {
@@ -77,6 +75,9 @@ public:
         }
         if (keys_of("meta") != nullptr) {
             put_settings();
+        }
+        if (is_on_new_tiles && is_crowd(*server_)) {
+            show_publications_alone(*server_); // roles may have rights on tables by default
         }
         if (is_published_anew) {
             server_->rows(renew_published_rows);
@@ -360,7 +361,8 @@ private:
         return cell;
     }
 
-    void add_missing_cells() {
+    /// Tables of the owner, whoever adds them. \returns false if there were all.
+    bool add_missing_cells() {
         std::set<std::int32_t> cells;
         auto select = file_->prepare("SELECT points FROM way WHERE way_id = ?");
         for (const auto& key : *keys_of("way")) {
@@ -376,7 +378,12 @@ private:
                                {fmt::format("segment_{}", cell)})
                         .empty();
         });
-        add_server_cells(*server_, cells);
+        if (!cells.empty()) {
+            act_as_owner(*server_);
+            add_server_cells(*server_, cells);
+            server_->run("RESET ROLE");
+        }
+        return !cells.empty();
     }
 
     /// Another profile is another network to importers, who keep it with the settings.

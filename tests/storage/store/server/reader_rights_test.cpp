@@ -3,6 +3,7 @@
 
 #include "storage/store/server/reader_rights.hpp"
 
+#include "mapping/conflation/network_conflation.hpp"
 #include "mapping/network/build_network.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
@@ -32,6 +33,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
@@ -192,14 +194,15 @@ TEST_F(ReadersOfACrowd, SeeNoneOfTheServersActivityOnceASuperuserHidIt) {
     }
     EXPECT_THAT(texts("guest", "SELECT n_tup_ins FROM pg_stat_user_tables WHERE relname = 'trip'"),
                 Not(IsEmpty()));
+    as("boss").run("CREATE EXTENSION pg_stat_statements SCHEMA public");
     show_to_readers(server_.address("roads"));
     show_to_readers(server_.address("roads")); // changes nothing more
     auto owner = as("owner");
     EXPECT_FALSE(is_activity_open(owner));
     auto views = texts("boss",
-                       "SELECT relname FROM pg_class WHERE relkind = 'v' AND relname ~ '^pg_stat'"
-                       " AND relname !~ '^pg_stats'");
-    EXPECT_THAT(views, Contains("pg_stat_activity"));
+                       "SELECT relnamespace::regnamespace || '.' || relname FROM pg_class"
+                       " WHERE relkind = 'v' AND relname ~ '^pg_stat' AND relname !~ '^pg_stats'");
+    EXPECT_THAT(views, IsSupersetOf({"pg_catalog.pg_stat_activity", "public.pg_stat_statements"}));
     views.insert(views.end(), {"pg_locks", "pg_replication_slots", "pg_prepared_xacts"});
     for (const auto& view : views) {
         EXPECT_THAT(refusal("guest", "SELECT * FROM " + view), HasSubstr("permission denied"))
@@ -293,6 +296,50 @@ TEST_F(ReadersOfACrowd, LoseWhatTheySawOfOwnCars) {
                 HasSubstr("the role does not own the database"));
     show_to_readers(address_);
     EXPECT_THAT(texts("map", readable), Not(Contains("segment_state")));
+}
+
+TEST_F(ReadersOfACrowd, LoseSingleColumnsAndWhatOthersGaveThem) {
+    make(PrivacyProfile::own);
+    as("boss").run("CREATE ROLE clerk LOGIN");
+    as("owner").run("GRANT USAGE ON SCHEMA macadam TO clerk;"
+                    "GRANT SELECT (id, t0_utc_ms) ON macadam.trip TO clerk;"
+                    "GRANT SELECT ON macadam.drive TO driver WITH GRANT OPTION");
+    as("driver").run("GRANT SELECT ON macadam.drive TO guest");
+    ASSERT_THAT(texts("clerk", readable), ElementsAre("trip"));
+    ASSERT_THAT(texts("guest", readable), Contains("drive"));
+    RoadStore{open_server_replica(address_, {}, {})}.maintenance.make_crowd();
+    EXPECT_THAT(texts("clerk", readable), IsEmpty());
+    EXPECT_THAT(texts("guest", readable), Not(Contains("drive")));
+    EXPECT_THAT(texts("driver", readable), Contains("drive"));
+}
+
+TEST_F(ReadersOfACrowd, AreSeenToSeeItFromOtherDatabasesOfTheServer) {
+    make();
+    auto owner = as("owner");
+    EXPECT_THAT(open_databases_beside(owner), ElementsAre("postgres", "template1"));
+    as("boss").run("REVOKE CONNECT ON DATABASE postgres, template1 FROM PUBLIC");
+    EXPECT_THAT(open_databases_beside(owner), IsEmpty());
+}
+
+TEST_F(ReadersOfACrowd, GetNothingByDefaultOfMapTilesThatAreAddedLater) {
+    make();
+    as("owner").run("ALTER DEFAULT PRIVILEGES IN SCHEMA macadam GRANT SELECT ON TABLES TO guest");
+    const auto before_tables = texts("guest", readable);
+    const auto before = roads_in_a_row(3);
+    auto ways = copies_of_ways(before);
+    ways.push_back({.id = 90,
+                    .name = "",
+                    .highway = "primary",
+                    .node_ids = {90, 91},
+                    .line = {{52.0, 13.0}, {52.0, 13.01}}});
+    const auto after = build_network(ways);
+    RoadStore{open_server_replica(server_.address("roads"), {}, {})}.maintenance.update_network(
+        before, after, change_between(before, after), {"newer.osm", ""});
+    EXPECT_EQ(texts("boss",
+                    "SELECT DISTINCT relowner::regrole::text FROM pg_class"
+                    " WHERE relnamespace = 'macadam'::regnamespace AND relname ~ '^drive_[0-9]+$'"),
+              std::vector<std::string>{"owner"});
+    EXPECT_EQ(texts("guest", readable), before_tables);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "mapping/passes/chunk_trace.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/put_background.hpp"
+#include "storage/store/server/server_schema.hpp"
 #include "support/files/files.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/roads/engine_world.hpp"
@@ -305,6 +306,21 @@ TEST_F(StoreCopies, NameWhyTheyCannotConnectAndNoPassword) {
                 HasSubstr("database \"nowhere\" does not exist"));
     EXPECT_THAT(refusal_of([&] { copy_to_server(file_, server_.address("roads", "who"), {}, {}); }),
                 HasSubstr("role \"who\" does not exist"));
+}
+
+TEST_F(StoreCopies, AreUpgradedByASuperuserForTheirOwner) {
+    make_rich_store(file_);
+    const auto digest = copy_there().digest;
+    change("DROP TABLE macadam.published_state, macadam.published_until,"
+           " macadam.published_pending, macadam.published_figure, macadam.published_event,"
+           " macadam.publication; DELETE FROM macadam.migration WHERE number = 7");
+    ServerConnection by_superuser{server_.address("roads")};
+    EXPECT_EQ(upgrade_server_schema(by_superuser), 6);
+    EXPECT_EQ(by_superuser.number("SELECT count(*) FROM pg_class"
+                                  " WHERE relnamespace = 'macadam'::regnamespace"
+                                  " AND relowner <> 'owner'::regrole"),
+              0);
+    EXPECT_EQ(copy_from_server(address_, folder_ / "back.gpkg", {}).digest, digest);
 }
 
 } // namespace
