@@ -170,7 +170,11 @@ MapPlan load_change_map(const StoreReader& store, MapRequest request, std::int64
     const auto day = utc_day(since_ms);
     set_words(request.style.words, day);
     request.style.classes = &change_classes();
-    request.style.own_ramp = change_colours(request.style.theme == MapStyle::Theme::dark);
+    const bool on_dark = request.style.theme == MapStyle::Theme::dark;
+    request.style.own_ramp = change_colours(on_dark);
+    if (on_dark && !request.style.colours.few_passes) {
+        request.style.colours.few_passes = 0x26282d; // hollow: apart from the grey middle
+    }
     const auto compared = [&](const SegmentFilter& filter) {
         auto states = compare_since(store, filter, since_ms);
         if (states.verdicts.empty()) {

@@ -38,9 +38,8 @@ constexpr std::array place_looks{PlaceLook{20, true, 1e9},
 constexpr PlaceLook marked_look{12.5, true, 1e12};
 constexpr double marked_px = 6;
 
-/// Returns the names of places at a scale, the important ones first. Names of
-/// areas are centred on them; where the map is too small to show areas, a
-/// symbol marks the place.
+/// Returns the names of places at a scale, the important ones first. Names of areas are centred on
+/// them; where the map is too small to show areas, a symbol marks the place.
 std::vector<PointName> point_names(const MapScene& scene,
                                    const MapFrame& frame,
                                    double paper_unit,
@@ -74,8 +73,7 @@ LabelConfig label_config(double paper_unit) {
             .moves_others = true};
 }
 
-/// Returns the distance from the centre of a road to the edge of its painted
-/// line.
+/// Returns the distance from the centre of a road to the edge of its painted line.
 double painted_half_width_px(const LineWidths& widths, const MapLine& line) {
     if (line.iri_class < 0) {
         return core_radius_px(widths, line.rank, true);

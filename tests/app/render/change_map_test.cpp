@@ -2,6 +2,7 @@
 
 #include "render/map/sheet/legend.hpp"
 #include "render/scene/colour.hpp"
+#include "render/scene/colour_difference.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/store_world.hpp"
@@ -100,6 +101,22 @@ TEST(ChangeMap, ExplainsItsColoursInTheLegend) {
             "Smoother", "Not significant", "Rougher", "Not comparable", "No dated measurement"));
     EXPECT_EQ(legend.entries[0].length, "0.1 km");           // 3 segments of 20 m
     EXPECT_EQ(class_colours(plan.style(), 3)[1], 0xf7f7f7U); // neutral: not significant
+}
+
+TEST(ChangeMap, TellsNotComparableFromNotSignificantOnEveryGround) {
+    const auto store = StoreReader::open(changed_roads(test_folder()));
+    using Theme = MapStyle::Theme;
+    for (const auto theme : {Theme::light, Theme::dark, Theme::print}) {
+        auto themed = request();
+        themed.style.theme = theme;
+        const auto style = load_change_map(store, themed, border_ms).style();
+        constexpr double clear = 10; // distinguished at a glance
+        for (const auto sight : all_sights) {
+            EXPECT_GT(
+                colour_difference(class_colours(style, 3)[1], palette(style).few_passes, sight),
+                clear);
+        }
+    }
 }
 
 TEST(ChangeMap, ComparesWithinABoxWhatIsOnThePicture) {
