@@ -193,6 +193,11 @@ ServerImport open_server_import(const std::string& address, const Progress& prog
     ServerTransaction one_moment{*server, true};
     expect_server_schema(*server);
     auto settings = read_server_settings(*server);
+    if (settings.key_id.empty()) { // which readers of a crowd do not see
+        throw InputError{fmt::format("{}: the role may not import; its owner grants "
+                                     "macadam_importer (docs/reference/postgresql.md)",
+                                     address)};
+    }
     auto image = open_network_image(*server, settings, progress);
     one_moment.commit();
     ServerImport open;

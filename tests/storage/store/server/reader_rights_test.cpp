@@ -163,6 +163,8 @@ TEST_F(ReadersOfACrowd, SeeNoSettingsThatTellOfCarsAndLogs) {
         "CREATE FUNCTION pg_temp.tell(text) RETURNS boolean LANGUAGE plpgsql COST 0.0001 AS"
         " $$BEGIN IF $1 ~ 'key' THEN RAISE EXCEPTION 'saw %', $1; END IF; RETURN true; END$$");
     EXPECT_EQ(guest.number("SELECT count(*) FROM macadam.meta WHERE pg_temp.tell(key)"), 10);
+    EXPECT_THAT(refusal_of([&] { open_server_import(server_.address("roads", "guest")); }),
+                HasSubstr("the role may not import; its owner grants macadam_importer"));
     EXPECT_THAT(texts("driver", keys), AllOf(Contains("key_id"), Contains("kept_logs_days")));
 }
 
