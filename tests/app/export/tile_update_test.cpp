@@ -198,7 +198,7 @@ TEST(TileMaker, FollowsADatabaseAsTripsComeAndGo) {
 
 TEST(TileMaker, MakesAfterForgottenTripsOnlyTheTilesThatShowedThem) {
     const auto folder = test_folder();
-    const auto roads = made_up_town(14);
+    const auto roads = made_up_town(30);
     auto store = RoadStore::create(folder / "a.gpkg", roads, {});
     const auto keys = keys_of(roads);
     ASSERT_GT(keys.size(), 2000U);
@@ -230,7 +230,7 @@ TEST(TileMaker, MakesAfterForgottenTripsOnlyTheTilesThatShowedThem) {
         expect_same(*maker.make(store, "less", {}),
                     *TileMaker{folder / "tiles"}.make(store, "new", {}));
         EXPECT_GT(maker.made(), 0U);
-        EXPECT_LT(maker.made(), all->count()) << number; // of a town as wide as a tile of zoom 14
+        EXPECT_LT(maker.made(), all->count()) << number;
     }
 }
 

@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 
 constexpr double hole_at_m = 500;
 constexpr double hole_length_m = 1;
-constexpr double hole_depth_m = 0.04;
+constexpr double hole_depth_m = 0.03;
 
 /// A drive of 800 m due east with one hole in its road.
 class TraceEvents : public ::testing::Test {
