@@ -14,7 +14,7 @@ struct ServerResultEnd {
     void operator()(PGresult* result) const { PQclear(result); }
 };
 
-/// What libpq returns for a statement.
+/// Result of a statement, as libpq returns it.
 using ServerResult = std::unique_ptr<PGresult, ServerResultEnd>;
 
 /// Tests whether a statement did its work.

@@ -20,8 +20,8 @@ constexpr double stated_sd = 1;      // of the noise's power
 constexpr double usual_by_speed = 1; // power of the speed with which the road's part grows
 constexpr double by_speed_sd = 1;
 
-// Road-caused power at 16 to 20 Hz over that at 7 to 13 Hz: 0.05 to 0.3 in simulated cars and
-// recordings at 50 to 90 km/h.
+// Road-caused power at 16 to 20 Hz over that at 7 to 13 Hz: 0.05 to 0.3 in simulated cars at 45 to
+// 95 km/h.
 constexpr double usual_log_ratio = -2.1;
 constexpr double log_ratio_sd = 0.7;
 
@@ -78,7 +78,7 @@ double sensor_noise_mps2(const VibrationSpectra& spectra, double stated_mps2) {
         return stated_mps2;
     }
     const auto count = static_cast<double>(windows.size());
-    const double log_stated = std::log(white_noise_power(stated_mps2, spectra.step_s));
+    const double log_stated = 2 * std::log(stated_mps2);
     Unknowns at{log_stated, usual_log_ratio, usual_by_speed};
     auto fit = fit_at(at, windows, log_speed / count, log_stated);
     for (int i = 0; i < steps; ++i) {

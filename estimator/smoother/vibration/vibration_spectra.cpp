@@ -92,8 +92,8 @@ void add(VibrationSpectra& spectra, const Stretch& stretch) {
     const std::size_t bins = bins_below(usable_share / stretch.step_s);
     const std::size_t white_bins = bins_below(white_share / stretch.step_s);
     spectra.used_bins = std::min(spectra.used_bins, bins);
-    spectra.step_s = stretch.step_s;
-    spectra.pitch_noise_radps = stretch.pitch_noise_radps;
+    spectra.pitch_noise_radps = std::max(spectra.pitch_noise_radps, stretch.pitch_noise_radps);
+    const double white_power = 2 * stretch.step_s; // a hertz, of readings of variance 1
     spectra.has_pitch = spectra.has_pitch && !stretch.pitch_radps.empty();
     const std::span<const float> felt[] = {stretch.vertical_mps2, stretch.pitch_radps};
     for (std::size_t from = 0; from + n <= stretch.vertical_mps2.size(); from += n / 2) {
@@ -119,12 +119,14 @@ void add(VibrationSpectra& spectra, const Stretch& stretch) {
             for (std::size_t bin = 0; bin < power.size(); ++bin) {
                 at.power[channel][bin] += power[bin] / level;
             }
-            at.noise[channel] += white_noise_power(1, stretch.step_s) / level;
+            at.noise[channel] += white_power / level;
             if (channel == 0 && white_bins >= first_low_bin + low_bins + high_bins) {
-                spectra.windows.push_back({std::log(mean_mps),
-                                           mean_of(power, first_low_bin, first_low_bin + low_bins),
-                                           mean_of(power, white_bins - high_bins, white_bins),
-                                           looks_per_bin * high_bins});
+                const std::size_t first_high_bin = white_bins - high_bins;
+                spectra.windows.push_back(
+                    {std::log(mean_mps),
+                     mean_of(power, first_low_bin, first_low_bin + low_bins) / white_power,
+                     mean_of(power, first_high_bin, white_bins) / white_power,
+                     looks_per_bin * high_bins});
             }
         }
         ++at.windows;

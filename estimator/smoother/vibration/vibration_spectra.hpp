@@ -24,7 +24,9 @@ struct VibrationSpectra {
         std::array<Power, channels> power{};
         std::array<double, channels> noise{}; ///< part of `power` that is white noise of variance 1
     };
-    /// One window's vertical acceleration: mean power, (m/s^2)^2 a hertz.
+
+    /// One window's vertical acceleration: mean power, as the variance of a reading of white noise
+    /// of that power, (m/s^2)^2.
     struct Window {
         double log_speed;
         double low;   ///< around wheel hop
@@ -34,16 +36,10 @@ struct VibrationSpectra {
 
     std::map<int, AtSpeed> speeds; ///< by class of speed, some 12 % wide
     std::vector<Window> windows;
-    double step_s = 0;            ///< of the last stretch, ...
-    double pitch_noise_radps = 0; ///< ... and its gyro's
+    double pitch_noise_radps = 0; ///< the largest of the stretches
     std::size_t used_bins = bins; ///< those below the logs' own limit
     bool has_pitch = true;        ///< in all stretches
 };
-
-/// Returns the power a hertz of white noise with this standard deviation a sample.
-inline double white_noise_power(double sd, double step_s) {
-    return 2 * step_s * sd * sd;
-}
 
 /// Adds a stretch that contains vertical acceleration. Others are ignored.
 void add(VibrationSpectra& spectra, const Stretch& stretch);

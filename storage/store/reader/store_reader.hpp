@@ -53,7 +53,7 @@ public:
     /// throws InputError if the key file belongs to another database.
     const PrivacyKey* key() const;
 
-    /// Where the key is, or would be.
+    /// Path of the key, whether it exists or not.
     const std::filesystem::path& key_file() const;
 
     /// Tests whether there is a key. Its holder is the operator, who sees unpublished data of a

@@ -17,7 +17,7 @@ enum class Engine { geopackage, postgresql };
 /// same key stays in the folder: roads.gpkg.
 class EngineDatabase {
 public:
-    /// Of the small country (store_world.hpp).
+    /// Database of the small country (store_world.hpp).
     EngineDatabase(Engine engine, const std::filesystem::path& folder);
 
     /// With other roads and settings.

@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// Where trips are written.
+/// Place where trips are written.
 struct TripTarget {
     ServerConnection& server;
     CellDrives& cells; ///< of the same connection

@@ -27,15 +27,14 @@ double found_mps2(const World& world, double true_mps2) {
 VibrationSpectra
 windows(double noise_mps2, double smoothest, double roughest, double ratio, int count) {
     VibrationSpectra spectra;
-    spectra.step_s = 0.02;
     std::mt19937 random{5};
     std::normal_distribution<double> scatter;
     for (int i = 0; i < count; ++i) {
         const double low = smoothest * std::pow(roughest / smoothest, i / (count - 1.0));
         const double looks = 14;
-        const double high = (white_noise_power(noise_mps2, spectra.step_s) +
-                             ratio * low * std::exp(0.3 * scatter(random))) *
-                            (1 + scatter(random) / std::sqrt(looks));
+        const double high =
+            (noise_mps2 * noise_mps2 + ratio * low * std::exp(0.3 * scatter(random))) *
+            (1 + scatter(random) / std::sqrt(looks));
         spectra.windows.push_back({.log_speed = std::log(20) + 0.1 * scatter(random),
                                    .low = low,
                                    .high = std::max(high, 1e-9),
@@ -50,7 +49,7 @@ TEST(SensorNoise, IsTheSameOnSmoothAndOnRoughRoads) {
     for (const double noise : {0.06, 0.1, 0.2}) {
         for (const double ratio : {0.04, 0.1, 0.25}) {
             const auto found =
-                sensor_noise_mps2(windows(noise, 1e-4, 0.03, ratio, 120), stated_mps2);
+                sensor_noise_mps2(windows(noise, 0.0025, 0.75, ratio, 120), stated_mps2);
             EXPECT_NEAR(found / noise, 1, 0.1) << noise << ' ' << ratio;
         }
     }
@@ -58,14 +57,14 @@ TEST(SensorNoise, IsTheSameOnSmoothAndOnRoughRoads) {
 
 /// Stated is what a file says or what is usual: a quieter sensor does no harm.
 TEST(SensorNoise, IsNeverLessThanStated) {
-    EXPECT_EQ(sensor_noise_mps2(windows(0.02, 1e-4, 0.03, 0.1, 120), stated_mps2), stated_mps2);
+    EXPECT_EQ(sensor_noise_mps2(windows(0.02, 0.0025, 0.75, 0.1, 120), stated_mps2), stated_mps2);
 }
 
 TEST(SensorNoise, IsWhatIsStatedWhereNothingWasDriven) {
     EXPECT_EQ(sensor_noise_mps2({}, stated_mps2), stated_mps2);
-    EXPECT_EQ(sensor_noise_mps2(windows(0.2, 1e-4, 0.03, 0.1, 11), stated_mps2), stated_mps2);
-    EXPECT_EQ(sensor_noise_mps2(windows(0.2, 1e-4, 0.03, 0.1, 120), 0), 0);
-    auto still = windows(0.2, 1e-4, 0.03, 0.1, 120);
+    EXPECT_EQ(sensor_noise_mps2(windows(0.2, 0.0025, 0.75, 0.1, 11), stated_mps2), stated_mps2);
+    EXPECT_EQ(sensor_noise_mps2(windows(0.2, 0.0025, 0.75, 0.1, 120), 0), 0);
+    auto still = windows(0.2, 0.0025, 0.75, 0.1, 120);
     for (auto& window : still.windows) {
         window.high = 0;
     }
