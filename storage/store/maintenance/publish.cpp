@@ -14,6 +14,7 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t month_letters = 7; // 2026-11
+constexpr int max_attempts = 4; // beside others, before it is computed under the write lock
 
 } // namespace
 
@@ -48,24 +49,30 @@ Published StoreMaintenance::publish(const RoadNetwork& roads,
     const PublicationWork work{
         &roads, &*store_->key, &store_->classes(), store_->segments_per_chunk()};
     StagedPublication staged{database};
-    StoreVersion version{};
-    {
+    const auto compute = [&] {
         Transaction snapshot{database, Transaction::Kind::read};
         expect_due();
-        version = moment_of(database);
+        const auto version = moment_of(database);
         staged.compute(work, progress);
         snapshot.commit();
+        return version;
+    };
+    for (int attempt = 1;; ++attempt) {
+        const auto version = compute();
+        Transaction all{database, Transaction::Kind::write};
+        expect_due();
+        if (moment_of(database).maintenance != version.maintenance) { // passes or rules changed
+            if (attempt < max_attempts) {
+                continue;
+            }
+            staged.compute(work, progress);
+        }
+        auto done = staged.apply(month);
+        add_audit(database, "publish", fmt::format("publication {}", done.publication.number));
+        all.commit();
+        store_->written(progress);
+        return done;
     }
-    Transaction all{database, Transaction::Kind::write};
-    expect_due();
-    if (moment_of(database).maintenance != version.maintenance) {
-        staged.compute(work, progress); // passes or rules changed meanwhile
-    }
-    auto done = staged.apply(month);
-    add_audit(database, "publish", fmt::format("publication {}", done.publication.number));
-    all.commit();
-    store_->written(progress);
-    return done;
 }
 
 } // namespace macadam

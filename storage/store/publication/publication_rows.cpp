@@ -53,8 +53,18 @@ std::optional<Publication> latest_publication(Database& database) {
 PublicationReach reach_of(Database& database, std::int64_t number) {
     auto select =
         database.prepare("SELECT last_trip, last_segment FROM publication WHERE number = ?");
-    return select.bind(number).step() ? PublicationReach{select.integer(0), select.integer(1)}
-                                      : PublicationReach{};
+    return select.bind(number).step()
+               ? PublicationReach{select.integer(0), select.integer(1), number}
+               : PublicationReach{};
+}
+
+std::vector<PublicationReach> reaches_of_all(Database& database) {
+    auto select = database.prepare("SELECT last_trip, last_segment, number FROM publication");
+    std::vector<PublicationReach> reaches;
+    while (select.step()) {
+        reaches.push_back({select.integer(0), select.integer(1), select.integer(2)});
+    }
+    return reaches;
 }
 
 void show_published_alone(Database& database) {

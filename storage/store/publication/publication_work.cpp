@@ -46,7 +46,17 @@ TripRows rows_of_trips(Database& database) {
     return rows;
 }
 
-EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const TripRows& trips) {
+void expect_to_go_on(const Database& database, const Progress& progress) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{
+            fmt::format("{}: interrupted; the database is unchanged", database.file().string())};
+    }
+}
+
+EndPasses end_passes_of(Database& database,
+                        const NetworkBlocks& blocks,
+                        const TripRows& trips,
+                        const Progress& progress) {
     struct Row {
         std::int64_t fid;
         std::uint32_t occurrence;
@@ -57,6 +67,7 @@ EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const T
         " WHERE pass.trip = ? ORDER BY pass.t_ms, pass.segment");
     EndPasses ends;
     for (const auto& [sha256, trip] : trips) {
+        expect_to_go_on(database, progress);
         std::vector<Row> rows;
         std::vector<BlockVisit> visits;
         for (select.bind(trip); select.step();) {
@@ -91,13 +102,13 @@ struct SegmentPasses {
 
 class PublicationMaker {
 public:
-    PublicationMaker(Database& database, const PublicationWork& work)
+    PublicationMaker(Database& database, const PublicationWork& work, const Progress& progress)
         : work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
-          ends_{end_passes_of(database, blocks_, trips_)}, states_{database}, events_{database},
-          rows_{database, work.segments_per_chunk},
+          ends_{end_passes_of(database, blocks_, trips_, progress)}, states_{database},
+          events_{database}, rows_{database, work.segments_per_chunk},
           number_{1 + database.number("SELECT coalesce(max(number), 0) FROM publication")},
-          before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
-                                                              read_last_of_keys(database)},
+          all_reaches_{reaches_of_all(database)}, before_{reach_of(database, number_ - 1)},
+          rule_{.last_of_key = read_last_of_keys(database)},
           until_{database.prepare("SELECT last_trip FROM published_until WHERE segment = ?")},
           put_until_{database.prepare("INSERT INTO temp.staged_until VALUES (?, ?)")},
           pending_{
@@ -105,6 +116,8 @@ public:
           put_pending_{database.prepare("INSERT INTO temp.staged_pending VALUES (?, ?, ?)")},
           figures_{database.prepare(
               "SELECT coalesce(max(number), 0) FROM published_figure WHERE segment = ?")},
+          first_figure_{
+              database.prepare("SELECT min(publication) FROM published_figure WHERE segment = ?")},
           put_figure_{database.prepare("INSERT INTO temp.staged_figure VALUES"
                                        " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
           put_chunk_{database.prepare("INSERT INTO temp.staged_chunk VALUES (?)")},
@@ -120,9 +133,7 @@ public:
     /// \returns the number of its segments with new values.
     std::size_t take_chunk(std::int64_t chunk) {
         auto passes = states_.passes_of_cars(chunk, work_.segments_per_chunk);
-        std::erase_if(passes, [&](const ChunkPass& pass) {
-            return ends_.contains({pass.fid, pass.input.trip_sha256, pass.input.pass.occurrence});
-        });
+        remove_unpublishable(passes);
         const auto segments = segments_in(passes);
         const auto changed = std::ranges::count_if(segments, [](const SegmentPasses& segment) {
             return !segment.release.batches.empty();
@@ -171,8 +182,7 @@ private:
         return segment;
     }
 
-    /// Publication status of a segment. For a segment of a later map, all earlier passes count as
-    /// published.
+    /// Publication status of a segment.
     PublishedUntil status_of(std::int64_t fid) {
         until_.bind(fid);
         PublishedUntil until;
@@ -183,11 +193,44 @@ private:
                                       static_cast<std::uint32_t>(pending_.integer(1)));
             }
             pending_.reset();
-        } else if (number_ > 1 && fid > before_.last_segment) {
-            until.last_trip = before_.last_trip;
         }
         until_.reset();
         return until;
+    }
+
+    /// Last trip of the publications before the map that brought the segment, whose passes are
+    /// never published there: they would tell of cars beside what the segments of the earlier map
+    /// showed. 0: there was none, or the segment is one of theirs with its batches.
+    std::int64_t last_trip_before_map_of(std::int64_t fid) {
+        PublicationReach last;
+        for (const auto& reach : all_reaches_) {
+            if (reach.last_segment < fid && reach.number > last.number) {
+                last = reach;
+            }
+        }
+        if (last.number > 0) {
+            first_figure_.bind(fid).step();
+            const auto first = first_figure_.known_integer(0);
+            first_figure_.reset();
+            return first && *first <= last.number ? 0 : last.last_trip;
+        }
+        return 0;
+    }
+
+    /// Removes what is never published: passes at the ends of drives, and those that publications
+    /// of an earlier map considered.
+    void remove_unpublishable(std::vector<ChunkPass>& passes) {
+        std::optional<std::int64_t> fid;
+        std::int64_t last_trip = 0;
+        std::erase_if(passes, [&](const ChunkPass& pass) {
+            if (fid != pass.fid) {
+                fid = pass.fid;
+                last_trip = last_trip_before_map_of(pass.fid);
+            }
+            const auto& input = pass.input;
+            return ends_.contains({pass.fid, input.trip_sha256, input.pass.occurrence}) ||
+                   (last_trip > 0 && trips_.at(input.trip_sha256) <= last_trip);
+        });
     }
 
     /// Last trip that was stored one to three publications ago; the key draws the number for each
@@ -318,6 +361,7 @@ private:
     ChunkEvents events_;
     SegmentRowids rows_;
     std::int64_t number_;
+    std::vector<PublicationReach> all_reaches_; ///< of earlier publications
     PublicationReach before_;
     ReleaseRule rule_;
     std::vector<std::int64_t> reach_; ///< last trips, by number of publications ago; 0: no trip
@@ -327,6 +371,7 @@ private:
     Statement pending_;
     Statement put_pending_;
     Statement figures_;
+    Statement first_figure_;
     Statement put_figure_;
     Statement put_chunk_;
     Statement put_event_;
@@ -339,16 +384,14 @@ private:
 std::size_t
 stage_pending(Database& database, const PublicationWork& work, const Progress& progress) {
     const auto chunks = driven_chunks(database);
-    PublicationMaker maker{database, work};
+    PublicationMaker maker{database, work, progress};
     std::size_t changed = 0;
     for (std::size_t done = 0; done < chunks.size();) {
-        if (progress.stop.stop_requested()) {
-            throw InputError{fmt::format("{}: interrupted; the database is unchanged",
-                                         database.file().string())};
-        }
+        expect_to_go_on(database, progress);
         changed += maker.take_chunk(chunks[done]);
         progress(++done, chunks.size());
     }
+    expect_to_go_on(database, progress);
     maker.flush();
     return changed;
 }

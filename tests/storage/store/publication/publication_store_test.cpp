@@ -329,6 +329,49 @@ TEST(PublicationBesideOthers, IsComputedAgainWhenCarsWereForgottenMeanwhile) {
     EXPECT_THAT(crowd.seen(), IsEmpty());
 }
 
+TEST(PublicationBesideOthers, LetsTripsComeInWhileItIsComputedAgain) {
+    Crowd crowd;
+    crowd.drive_all(8, january_ms);
+    int begun = 0;
+    const Progress beside{.report =
+                              [&](std::size_t done, std::size_t) {
+                                  if (done != 1) {
+                                      return;
+                                  }
+                                  if (++begun == 1) {
+                                      ForgetRequest request;
+                                      request.vehicles = {"car 1"};
+                                      RoadStore::open(crowd.file).maintenance.forget(request);
+                                  } else {
+                                      crowd.drive_beside(february_ms, 5000);
+                                  }
+                              },
+                          .stop = {}};
+    EXPECT_EQ(crowd.publish(february_ms, beside).changed, 10U);
+    EXPECT_EQ(begun, 2);
+    EXPECT_EQ(crowd.seen().front().state->iri_um, 2000);
+}
+
+TEST(PublicationBesideOthers, IsMadeHoweverOftenCarsAreForgottenMeanwhile) {
+    Crowd crowd;
+    crowd.drive_all(12, january_ms);
+    int forgotten = 0;
+    const Progress beside{.report =
+                              [&](std::size_t done, std::size_t) {
+                                  constexpr int attempts =
+                                      4; // beside others; the next one has the database alone
+                                  if (done == 1 && forgotten < attempts) {
+                                      ForgetRequest request;
+                                      request.vehicles = {"car " + std::to_string(forgotten++)};
+                                      RoadStore::open(crowd.file).maintenance.forget(request);
+                                  }
+                              },
+                          .stop = {}};
+    EXPECT_EQ(crowd.publish(february_ms, beside).changed, 10U);
+    EXPECT_EQ(forgotten, 4);
+    EXPECT_EQ(crowd.store.latest_publication()->trips, 5); // eight
+}
+
 TEST(PublicationBesideOthers, IsRefusedWhenAnotherOneOfTheMonthWasQuicker) {
     Crowd crowd;
     crowd.drive_all(6, january_ms);
@@ -355,6 +398,22 @@ TEST(PublicationBesideOthers, LeavesNothingBehindWhenItIsStopped) {
     EXPECT_FALSE(crowd.store.latest_publication());
     EXPECT_EQ(crowd.publish(february_ms).changed, 10U); // by the same connection
     EXPECT_EQ(crowd.seen().size(), 10U);
+}
+
+TEST(PublicationBesideOthers, IsStoppedInItsLastChunkToo) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    std::stop_source source;
+    const Progress progress{.report =
+                                [&](std::size_t done, std::size_t all) {
+                                    if (done == all) {
+                                        source.request_stop();
+                                    }
+                                },
+                            .stop = source.get_token()};
+    EXPECT_THAT(refusal_of([&] { crowd.publish(february_ms, progress); }),
+                HasSubstr("crowd.gpkg: interrupted; the database is unchanged"));
+    EXPECT_FALSE(crowd.store.latest_publication());
 }
 
 TEST(Publication, NeedsACrowdAndItsKey) {
