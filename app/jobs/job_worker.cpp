@@ -211,11 +211,12 @@ private:
     }
 
     /// Removes logs from the object store that are imported, or of a crowd and worked out, also
-    /// those of killed workers.
+    /// those of killed workers; and from the queue those that have been gone for long.
     void erase_done() {
         const auto which = work_.keeps_logs ? ErasedLogs::forgotten
                            : is_crowd()     ? ErasedLogs::worked_out
                                             : ErasedLogs::imported;
+        remove_old_jobs(*queue_, 2 * max_batch);
         const auto done = jobs_to_erase(*queue_, 2 * max_batch, which);
         if (done.empty()) {
             return;

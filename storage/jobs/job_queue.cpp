@@ -31,6 +31,12 @@ std::string hashes_of(std::span<const Job> jobs) {
     return array_of(jobs, [](const Job& job) { return job.sha256; });
 }
 
+constexpr const char* removing_old_jobs =
+    "DELETE FROM macadam.job WHERE sha256 IN (SELECT sha256 FROM macadam.job"
+    " WHERE finished_at < now() - interval '400 days' AND NOT has_object"
+    " AND state IN ('imported', 'known', 'outside', 'refused')"
+    " ORDER BY finished_at LIMIT $1 FOR UPDATE SKIP LOCKED)";
+
 constexpr const char* job_columns = "sha256, suffix, bytes, attempts";
 
 std::vector<Job> jobs_in(const std::vector<ServerRow>& rows) {
@@ -256,6 +262,10 @@ void note_erased(ServerConnection& server, std::span<const Job> jobs) {
                 " WHERE job.sha256 = done.sha256",
                 {hashes_of(jobs)});
     remove_forgotten_jobs(server, jobs);
+}
+
+void remove_old_jobs(ServerConnection& server, std::size_t limit) {
+    server.rows(removing_old_jobs, {std::to_string(limit)});
 }
 
 std::vector<Job> end_forgotten_jobs(ServerConnection& server) {

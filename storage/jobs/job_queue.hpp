@@ -99,6 +99,10 @@ std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit, Eras
 /// Notes that their objects are gone.
 void note_erased(ServerConnection& server, std::span<const Job> jobs);
 
+/// Removes jobs that were done over 400 days ago and whose objects are gone, at most `limit`. A log
+/// that is submitted again then is worked out again, and found to be known.
+void remove_old_jobs(ServerConnection& server, std::size_t limit);
+
 /// Ends jobs of logs that are, or hold, a trip which was permanently deleted, whatever they wait
 /// for. \returns them; their objects are to be erased.
 std::vector<Job> end_forgotten_jobs(ServerConnection& server);

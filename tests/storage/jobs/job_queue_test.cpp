@@ -325,6 +325,32 @@ TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
     EXPECT_THAT(jobs_to_erase(queue(), 10, ErasedLogs::imported), IsEmpty());
 }
 
+TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
+    submit_logs(queue(), logs(4));
+    const auto taken = take_jobs(queue(), anna, 3, false);
+    ASSERT_THAT(taken, SizeIs(3));
+    finish_jobs(
+        queue(),
+        anna,
+        std::vector{JobEnd{.job = taken[0]}, JobEnd{.job = taken[1]}, JobEnd{.job = taken[2]}});
+    note_erased(queue(), std::span{taken}.first(2));
+    remove_old_jobs(queue(), 10);
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 4);
+    const auto make_old = [&](const Job& job) {
+        queue().rows("UPDATE macadam.job SET finished_at = now() - interval '401 days'"
+                     " WHERE sha256 = $1",
+                     {job.sha256});
+    };
+    make_old(taken[0]);
+    make_old(taken[2]); // whose object is still there
+    remove_old_jobs(queue(), 10);
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 3);
+    const auto states = states_of_logs(queue(), taken);
+    EXPECT_FALSE(states[0].has_value());
+    EXPECT_EQ(states[1], UploadState::imported);
+    EXPECT_EQ(submit_logs(queue(), std::span{taken}.first(1)).at(0), Submission::added);
+}
+
 TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
     EXPECT_FALSE(objects_location(queue()).has_value());
     put_objects_location(queue(), "/srv/a");
@@ -414,6 +440,14 @@ TEST_F(JobQueue, IsSearchedByItsIndexes) {
         }
         EXPECT_THAT(plan, HasSubstr(index)) << plan;
     }
+    std::string plan;
+    for (const auto& row : queue().rows("EXPLAIN SELECT sha256 FROM macadam.job WHERE finished_at <"
+                                        " now() - interval '400 days' AND NOT has_object AND state"
+                                        " IN ('imported', 'known', 'outside', 'refused')"
+                                        " ORDER BY finished_at LIMIT 20 FOR UPDATE SKIP LOCKED")) {
+        plan += row[0].value_or("") + "\n";
+    }
+    EXPECT_THAT(plan, HasSubstr("job_finished")) << plan; // as remove_old_jobs() asks
 }
 
 } // namespace
