@@ -23,6 +23,30 @@ std::optional<std::string> server_of(ServerConnection& front, std::int32_t cell)
     return found.empty() ? std::nullopt : found[0][0];
 }
 
+/// Runs statements that need tables alone once nobody reads them. Whoever begins to read waits two
+/// seconds at most behind one who has read for long.
+constexpr const char* between_readers = R"sql(
+DO $$
+DECLARE
+    attempt integer := 0;
+BEGIN
+    LOOP
+        BEGIN
+            SET LOCAL lock_timeout = '2s';
+            {}
+            EXIT;
+        EXCEPTION WHEN lock_not_available THEN
+            attempt := attempt + 1;
+            IF attempt = 40 THEN
+                RAISE EXCEPTION 'cells are being read; nothing was written, run the command again';
+            END IF;
+        END;
+        PERFORM pg_sleep(0.5);
+    END LOOP;
+    SET LOCAL lock_timeout TO DEFAULT;
+END $$
+)sql";
+
 std::int64_t next_number(ServerConnection& front) {
     return front.number("SELECT nextval('macadam.cell_number')");
 }
@@ -194,13 +218,20 @@ std::vector<NextCellTables> prepare_cells(ServerConnection& front) {
 }
 
 void switch_cells(ServerConnection& front, const std::vector<NextCellTables>& next) {
+    std::string alterations;
     for (const auto& [cell, number] : next) {
         for (const auto* const table : moved_tables) {
-            front.run(fmt::format("ALTER FOREIGN TABLE macadam.{}_{} OPTIONS (SET table_name '{}')",
-                                  table,
-                                  cell,
-                                  cell_table(table, cell, number)));
+            alterations +=
+                fmt::format("ALTER FOREIGN TABLE macadam.{}_{} OPTIONS (SET table_name '{}');",
+                            table,
+                            cell,
+                            cell_table(table, cell, number));
         }
+    }
+    if (!alterations.empty()) {
+        front.run(fmt::format(fmt::runtime(between_readers), alterations));
+    }
+    for (const auto& [cell, number] : next) {
         front.rows("UPDATE macadam.cell_place SET number = $2 WHERE cell = $1",
                    {std::to_string(cell), std::to_string(number)});
     }

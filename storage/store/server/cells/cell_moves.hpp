@@ -37,7 +37,9 @@ struct NextCellTables {
 std::vector<NextCellTables> prepare_cells(ServerConnection& front);
 
 /// Lets the front read and write the new tables, within the caller's transaction: all servers
-/// switch with its commit.
+/// switch with its commit. Waits for those who read them, who do not keep others waiting.
+///
+/// \throws InputError  after 40 attempts.
 void switch_cells(ServerConnection& front, const std::vector<NextCellTables>& next);
 
 /// Removes tables on other servers that the front does not use: replaced ones, and those of work

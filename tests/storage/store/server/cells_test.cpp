@@ -21,6 +21,7 @@
 #include <csignal>
 #include <cstdint>
 #include <future>
+#include <memory>
 #include <random>
 #include <string>
 #include <thread>
@@ -387,6 +388,27 @@ TEST_F(Cells, SwitchToAGenerationThatIsPreparedEverywhere) {
     import(6, 8);
     import_into(file, 6, 8);
     EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(Cells, AreSwitchedBetweenReadersWithoutMakingOthersWait) {
+    import(0, 4);
+    spread();
+    auto reader = std::make_unique<ServerConnection>(front_);
+    reader->begin(true);
+    reader->number("SELECT count(*) FROM macadam.drive"); // and reads on
+    auto done = std::async(std::launch::async, [&] {
+        RoadStore{open_server_replica(front_, {}, {})}.maintenance.set_valid_from(
+            std::vector<SegmentKey>{{1, true, 2}}, 1'765'000'000'000, {});
+    });
+    const std::string waiting = "SELECT count(*) FROM pg_locks WHERE NOT granted AND relation IS"
+                                " NOT NULL AND mode = 'AccessExclusiveLock'";
+    while (number(front_, waiting) == 0 &&
+           done.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
+    }
+    EXPECT_GT(number(front_, "SELECT count(*) FROM macadam.drive"), 0); // beside both
+    EXPECT_EQ(done.wait_for(std::chrono::milliseconds{0}), std::future_status::timeout);
+    reader.reset();
+    done.get();
 }
 
 TEST_F(Cells, AreMovedByThoseOnlyWhoMay) {
