@@ -10,6 +10,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/jobs/work_status.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -61,6 +62,13 @@ void import_waiting_logs(const std::string& address, const Console& console) {
     }
 }
 
+RoadStore
+opened_to_forget(const std::string& address, const ForgetRequest& request, const Console& console) {
+    console.detail(fmt::format("opening {}", address));
+    return RoadStore{open_replica_to_forget(
+        address, request, wait_policy_for(address, console), console.progress("reading drives"))};
+}
+
 void run_forget(const Arguments& arguments, const Console& console) {
     const auto file = file_or_server(arguments);
     const ForgetRequest request{.trips = arguments.values("--trip"),
@@ -68,17 +76,20 @@ void run_forget(const Arguments& arguments, const Console& console) {
     if (request.trips.empty() && request.vehicles.empty()) {
         throw UsageError{"expected --trip or --vehicle-id: what to delete"};
     }
-    if (is_server_address(file.string())) {
+    const bool is_on_server = is_server_address(file.string());
+    if (is_on_server) {
         import_waiting_logs(file.string(), console);
     } else {
         work_out_all_uploads(file, console);
     }
-    auto store = opened_store(file, console);
+    auto store = is_on_server ? opened_to_forget(file.string(), request, console)
+                              : opened_store(file, console);
     const auto progress = console.progress("deleting");
     const auto forgotten = store.maintenance.forget(request, progress);
-    drop_forgotten_uploads(store, console);
-    if (is_server_address(file.string())) {
+    if (is_on_server) {
         erase_forgotten_logs(file.string(), console);
+    } else {
+        drop_forgotten_uploads(store, console);
     }
     if (arguments.flag("--json")) {
         print(json_of(forgotten));

@@ -49,6 +49,11 @@ RoadStore EngineDatabase::maintain() const {
     return server_ ? RoadStore{open_server_replica(name_, {}, {})} : RoadStore::open(name_);
 }
 
+Forgotten EngineDatabase::forget(const ForgetRequest& request) const {
+    return (server_ ? RoadStore{open_replica_to_forget(name_, request, {}, {})} : maintain())
+        .maintenance.forget(request);
+}
+
 RichTrip::RichTrip(int number) : record{trip_record(number)}, passes{passes_of(number)} {
     record.row_reasons = {{"too_slow", 7U}};
     for (auto& pass : passes) {

@@ -30,6 +30,7 @@ public:
     ImportStore import() const;
     StoreReader read(Audience audience = Audience::operator_) const;
     RoadStore maintain() const;
+    Forgotten forget(const ForgetRequest& request) const;
 
     /// Where its key is.
     std::filesystem::path key_file() const;

@@ -90,10 +90,12 @@ void know_server_key_file(StoreConnection& copy) {
     }
 }
 
-std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
-                                                  Database::Access access,
-                                                  const LockWaitPolicy& wait_policy,
-                                                  const Progress& progress) {
+std::shared_ptr<StoreConnection>
+open_server_copy(ServerConnection& server,
+                 Database::Access access,
+                 const LockWaitPolicy& wait_policy,
+                 const Progress& progress,
+                 const std::function<void(RowsFromServer& rows, Database& file)>& fill) {
     stop_writers(server);
     ServerTransaction one_moment{server, true};
     see_all_cells(server);
@@ -104,7 +106,7 @@ std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
     {
         Database database{file, Database::Access::create, server.address()};
         RowsFromServer rows{server, database, progress};
-        fill_copy(rows, database, ServerContent::all);
+        fill(rows, database);
         key_id = read_key_id(database);
         database.close();
     }

@@ -73,10 +73,14 @@ void in_batches(std::span<const Item> items, Call call) {
     }
 }
 
-void copy_trips_of_passes(RowsFromServer& rows, Database& file) {
+void copy_trips_of_passes(RowsFromServer& rows,
+                          Database& file,
+                          std::span<const std::int64_t> others) {
     const auto trips =
         numbers_in(file, "SELECT trip FROM pass UNION SELECT trip FROM trace ORDER BY 1");
-    in_batches(std::span{trips}, [&](auto batch) { rows.copy_trips(batch); });
+    for (const auto& some : {std::span{trips}, others}) {
+        in_batches(some, [&](auto batch) { rows.copy_trips(batch); });
+    }
     const auto cars = numbers_in(file, "SELECT id FROM vehicle");
     in_batches(std::span{cars}, [&](auto batch) {
         for (const auto* const table : {"calibration", "calibration_period"}) {
@@ -143,13 +147,16 @@ void fill_part(RowsFromServer& rows,
         });
         copy_chunks(rows, chunks, content.passes);
         if (content.passes) {
-            copy_trips_of_passes(rows, file);
+            copy_trips_of_passes(rows, file, content.trips);
         }
         rows.copy_marks();
         if (content.background) {
             for (const auto* const table : background_tables) {
                 rows.copy_rows(server_table(table));
             }
+        }
+        if (content.others) {
+            content.others();
         }
     });
 }

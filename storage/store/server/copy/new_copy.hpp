@@ -4,6 +4,7 @@
 #include "storage/store/server/copy/rows_from_server.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace macadam {
@@ -22,8 +23,10 @@ void fill_copy(RowsFromServer& rows, Database& file, ServerContent content);
 
 /// Contents of a copy of some chunks besides roads and fused values.
 struct PartContent {
-    bool passes = false;     ///< with their trips and cars, and what fusion needs
-    bool background = false; ///< what maps show below the roads
+    bool passes = false;                   ///< with their trips and cars, and what fusion needs
+    bool background = false;               ///< what maps show below the roads
+    std::span<const std::int64_t> trips{}; ///< with passes: other trips, by row, and their cars
+    std::function<void()> others{};        ///< copies other rows
 };
 
 /// Fills a new file with some chunks of a database on a server and all of its settings.

@@ -4,9 +4,11 @@
 #include "storage/postgres/server_connection.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
 #include "storage/store/connection/store_connection.hpp"
+#include "storage/store/server/copy/rows_from_server.hpp"
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -53,9 +55,13 @@ void know_server_key_file(StoreConnection& copy);
 
 /// Opens a private copy of the moment of a database in the folder of temporary files, with its key
 /// if this user has it. The copy is removed with the last user of the connection.
-std::shared_ptr<StoreConnection> open_server_copy(ServerConnection& server,
-                                                  Database::Access access,
-                                                  const LockWaitPolicy& wait_policy,
-                                                  const Progress& progress);
+///
+/// \param fill  fills the new file, with all of the database or a part (new_copy.hpp).
+std::shared_ptr<StoreConnection>
+open_server_copy(ServerConnection& server,
+                 Database::Access access,
+                 const LockWaitPolicy& wait_policy,
+                 const Progress& progress,
+                 const std::function<void(RowsFromServer& rows, Database& file)>& fill);
 
 } // namespace macadam

@@ -3,11 +3,14 @@
 #include "estimator/common/error.hpp"
 #include "storage/store/rows/store_digest.hpp"
 #include "storage/store/server/cells/cell_moves.hpp"
+#include "storage/store/server/copy/new_copy.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/reader/server_mirror.hpp"
+#include "storage/store/server/replica/forgotten_part.hpp"
 #include "storage/store/server/replica/write_back.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_locks.hpp"
+#include "storage/store/server/server_schema.hpp"
 
 #include <fmt/format.h>
 
@@ -21,13 +24,29 @@ namespace {
 /// Replica with its server. Members end in reverse order: the connections before the folder.
 class ServerReplica {
 public:
+    /// \param request  trips to forget, if the replica is for that alone.
     ServerReplica(const std::string& address,
+                  const std::optional<ForgetRequest>& request,
                   const LockWaitPolicy& wait_policy,
                   const Progress& progress)
         : server_{address} {
         take_cell_places(server_);
         take_database(server_);
-        copy_ = open_server_copy(server_, Database::Access::write, wait_policy, progress);
+        if (request) {
+            expect_server_schema(server_);
+            part_ = part_to_forget(server_, *request);
+        }
+        copy_ = open_server_copy(server_,
+                                 Database::Access::write,
+                                 wait_policy,
+                                 progress,
+                                 [&](RowsFromServer& rows, Database& file) {
+                                     if (part_) {
+                                         fill_part_to_forget(rows, file, *part_);
+                                     } else {
+                                         fill_copy(rows, file, ServerContent::all);
+                                     }
+                                 });
         recorder_.emplace(copy_->database);
         copy_->after_write = [this](const Progress& writing) { bring_back(writing); };
     }
@@ -44,8 +63,18 @@ private:
         const auto next = prepare_cells(server_);
         ServerTransaction all{server_};
         switch_cells(server_, next);
-        write_back(server_, *copy_, changed);
-        const auto digest = digest_of(database, {.report = {}, .stop = progress.stop});
+        write_back(server_, *copy_, changed, part_ ? ReplicaExtent::part : ReplicaExtent::all);
+        if (!part_) {
+            expect_same_digest(progress);
+        }
+        all.commit();
+        remove_mirrors_of_fusion(server_); // even if a server of cells fails now
+        drop_unused_cell_tables(server_);
+        recorder_.emplace(database);
+    }
+
+    void expect_same_digest(const Progress& progress) {
+        const auto digest = digest_of(copy_->database, {.report = {}, .stop = progress.stop});
         const auto written = digest_of_server(
             server_, static_cast<std::uint32_t>(copy_->segments_per_chunk()), progress);
         if (written != digest) {
@@ -55,25 +84,32 @@ private:
                                          written,
                                          digest)};
         }
-        all.commit();
-        remove_mirrors_of_fusion(server_); // even if a server of cells fails now
-        drop_unused_cell_tables(server_);
-        recorder_.emplace(database);
     }
 
     ServerConnection server_;
+    std::optional<ForgottenPart> part_; ///< that the copy holds; else it holds all
     std::shared_ptr<StoreConnection> copy_;
     std::optional<ChangeRecorder> recorder_;
 };
+
+std::shared_ptr<StoreConnection> store_of(std::shared_ptr<ServerReplica> replica) {
+    auto* const store = &replica->store();
+    return {std::move(replica), store};
+}
 
 } // namespace
 
 std::shared_ptr<StoreConnection> open_server_replica(const std::string& address,
                                                      const LockWaitPolicy& wait_policy,
                                                      const Progress& progress) {
-    auto replica = std::make_shared<ServerReplica>(address, wait_policy, progress);
-    auto* const store = &replica->store();
-    return {std::move(replica), store};
+    return store_of(std::make_shared<ServerReplica>(address, std::nullopt, wait_policy, progress));
+}
+
+std::shared_ptr<StoreConnection> open_replica_to_forget(const std::string& address,
+                                                        const ForgetRequest& request,
+                                                        const LockWaitPolicy& wait_policy,
+                                                        const Progress& progress) {
+    return store_of(std::make_shared<ServerReplica>(address, request, wait_policy, progress));
 }
 
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
 #include "storage/store/connection/store_connection.hpp"
+#include "storage/store/records/maintenance_records.hpp"
 
 #include <memory>
 #include <string>
@@ -21,5 +22,15 @@ namespace macadam {
 std::shared_ptr<StoreConnection> open_server_replica(const std::string& address,
                                                      const LockWaitPolicy& wait_policy,
                                                      const Progress& progress);
+
+/// Opens a database on a server to forget trips, and for nothing else: the private copy holds only
+/// the chunks that they drove and what else forgetting them changes; all of it if they calibrated
+/// cars. Otherwise as open_server_replica(), but without comparing digests of the whole.
+///
+/// \param request  that StoreMaintenance::forget() is called with.
+std::shared_ptr<StoreConnection> open_replica_to_forget(const std::string& address,
+                                                        const ForgetRequest& request,
+                                                        const LockWaitPolicy& wait_policy,
+                                                        const Progress& progress);
 
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/copy_stream.hpp"
 #include "storage/postgres/ewkb.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/fusion/store_version.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/server/drive_rows.hpp"
@@ -57,8 +58,12 @@ std::string joined(const Names& names, const char* between, Format format) {
 
 class WriteBack {
 public:
-    WriteBack(ServerConnection& server, StoreConnection& replica, const ChangedRows& changed)
+    WriteBack(ServerConnection& server,
+              StoreConnection& replica,
+              const ChangedRows& changed,
+              ReplicaExtent extent)
         : server_{&server}, replica_{&replica}, file_{&replica.database}, changed_{&changed},
+          extent_{extent},
           select_points_{file_->prepare(
               "SELECT way.points FROM segment CROSS JOIN way ON way.way_id = segment.way_id"
               " WHERE segment.fid = ?")} {}
@@ -88,6 +93,9 @@ public:
         server_->rows(renew_store_rows);
         if (keys_of("strip_dirty") != nullptr || keys_of("segment_dirty") != nullptr) {
             put_marks();
+        }
+        if (extent_ == ReplicaExtent::part && keys_of("publication") != nullptr) {
+            free_rows_of_trips();
         }
         for (const auto* const table : numbered_tables) {
             if (keys_of(table) != nullptr) {
@@ -403,7 +411,12 @@ private:
     }
 
     void put_marks() {
-        server_->run("DELETE FROM macadam.chunk_dirty");
+        if (extent_ == ReplicaExtent::all) {
+            server_->run("DELETE FROM macadam.chunk_dirty");
+        } else {
+            server_->rows("DELETE FROM macadam.chunk_dirty WHERE chunk = ANY($1::bigint[])",
+                          {array_of(chunks_of_replica())});
+        }
         const auto& table = server_table("chunk_dirty");
         CopyWriter writer{*server_, copy_target(table), static_cast<int>(table.columns.size())};
         for (const auto chunk : dirty_chunks(*file_)) {
@@ -412,10 +425,28 @@ private:
         writer.finish();
     }
 
+    std::vector<std::int64_t> chunks_of_replica() {
+        std::vector<std::int64_t> chunks;
+        auto select = file_->prepare("SELECT DISTINCT strip FROM segment");
+        while (select.step()) {
+            chunks.push_back(select.integer(0));
+        }
+        return chunks;
+    }
+
+    /// Later trips may reuse the rows of deleted ones, and are not published: also on chunks that
+    /// the replica does not hold.
+    void free_rows_of_trips() {
+        server_->run("UPDATE macadam.published_until SET last_trip = last.id FROM"
+                     " (SELECT coalesce(max(id), 0) AS id FROM macadam.trip) AS last"
+                     " WHERE last_trip > last.id");
+    }
+
     ServerConnection* server_;
     StoreConnection* replica_;
     Database* file_;
     const ChangedRows* changed_;
+    ReplicaExtent extent_;
     Statement select_points_;
     std::set<std::pair<std::int64_t, std::int64_t>> drives_; ///< (chunk, trip) to be written
 };
@@ -438,8 +469,11 @@ ChangedRows changed_rows(const ChangeRecorder& recorder) {
     return changed;
 }
 
-void write_back(ServerConnection& server, StoreConnection& replica, const ChangedRows& changed) {
-    WriteBack{server, replica, changed}.run();
+void write_back(ServerConnection& server,
+                StoreConnection& replica,
+                const ChangedRows& changed,
+                ReplicaExtent extent) {
+    WriteBack{server, replica, changed, extent}.run();
 }
 
 } // namespace macadam

@@ -5,6 +5,7 @@
 #include "storage/sqlite/change_recorder.hpp"
 #include "storage/store/connection/store_connection.hpp"
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -18,7 +19,13 @@ using ChangedRows = std::map<std::string, std::set<RowKey>>;
 /// passes and traces, keys are (segment or chunk, trip) without the rest.
 ChangedRows changed_rows(const ChangeRecorder& recorder);
 
+/// What a replica holds of its database.
+enum class ReplicaExtent : std::uint8_t { all, part };
+
 /// Makes these rows of a server those of the replica, within the caller's transaction.
-void write_back(ServerConnection& server, StoreConnection& replica, const ChangedRows& changed);
+void write_back(ServerConnection& server,
+                StoreConnection& replica,
+                const ChangedRows& changed,
+                ReplicaExtent extent);
 
 } // namespace macadam

@@ -2,6 +2,7 @@
 // PostgreSQL, beside a file of the same key.
 
 #include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/crowd_drives.hpp"
 #include "support/roads/engine_world.hpp"
@@ -61,6 +62,16 @@ protected:
         for (int car = 0; car < cars; ++car) {
             drives.push_back({trips_++, car, utc_ms, iri_um, holes, road_count});
         }
+        import(drives);
+        fuse();
+    }
+
+    /// One car drives the first roads, and is not fused.
+    void drive_first_roads(int car, std::int64_t utc_ms, int roads) {
+        import({{ trips_++, car, utc_ms, 9000, false, roads }});
+    }
+
+    void import(const std::vector<CrowdDrive>& drives) {
         const auto file = import_store_of(RoadStore::open(oracle_));
         const auto database = database_->import();
         for (const auto& each : drives) {
@@ -69,8 +80,11 @@ protected:
         for (auto each = drives.rbegin(); each != drives.rend(); ++each) {
             add(*file.trips, *each);
         }
-        fuse_all(*database.trips);
-        fuse_all(*file.trips);
+    }
+
+    void fuse() {
+        fuse_all(*database_->import().trips);
+        fuse_all(*import_store_of(RoadStore::open(oracle_)).trips);
     }
 
     /// Both publish.
@@ -85,7 +99,7 @@ protected:
     void forget(const std::string& car) {
         const ForgetRequest request{.trips = {}, .vehicles = {car}};
         const auto in_file = RoadStore::open(oracle_).maintenance.forget(request);
-        EXPECT_EQ(database_->maintain().maintenance.forget(request).passes, in_file.passes);
+        EXPECT_EQ(database_->forget(request).passes, in_file.passes);
     }
 
     /// The public and the operator see what they see of the file.
@@ -187,6 +201,48 @@ TEST_P(CrowdOnAnyEngine, PublishesWhatAFileWouldThoughCarsAreForgotten) {
     EXPECT_NE(values_of(database_->read(Audience::anyone)), before);
 }
 
+TEST_P(CrowdOnAnyEngine, PublishesWhatAFileWouldThoughTheRowOfItsLastTripIsTakenAgain) {
+    make();
+    drive(6, january_ms);
+    drive_first_roads(9, january_ms, 2);
+    fuse();
+    publish(february_ms);
+    forget("car 9"); // the last trip; later ones get its row on all roads
+    expect_as_in_file("forgotten");
+    drive(6, february_ms, 5000);
+    publish(march_ms);
+    expect_as_in_file("second");
+    forget("car 3");
+    drive(6, march_ms, 3000);
+    publish(april_ms);
+    expect_as_in_file("third");
+}
+
+TEST_P(CrowdOnAnyEngine, LeavesMarksOfOtherRoadsWhenACarIsForgotten) {
+    make();
+    drive(6, january_ms);
+    drive_first_roads(9, january_ms, 2);
+    drive_first_roads(8, january_ms, 5); // marks five roads
+    forget("car 9");
+    EXPECT_EQ(database_->import().trips->waiting(), 30U); // what it drove is fused
+    fuse();
+    expect_as_in_file("fused");
+    forget("car 8");
+    expect_as_in_file("none of both");
+    EXPECT_THAT(database_->read().info().vehicles, SizeIs(6));
+}
+
+TEST_P(CrowdOnAnyEngine, ForgetsATripByTheNameOfItsFile) {
+    make();
+    drive(6, january_ms);
+    const auto drive = CrowdDrive{0, 0, january_ms, 2000, false, road_count}.record();
+    const ForgetRequest request{.trips = {drive.file_name}, .vehicles = {}};
+    EXPECT_EQ(RoadStore::open(oracle_).maintenance.forget(request).trips, 1U);
+    EXPECT_EQ(database_->forget(request).trips, 1U);
+    expect_as_in_file("forgotten");
+    EXPECT_THAT(refusal_of([&] { database_->forget(request); }), HasSubstr("has no trip"));
+}
+
 TEST_P(CrowdOnAnyEngine, IsPublishedOnceAMonthByWhoHasTheKey) {
     make();
     drive(6, january_ms);
@@ -258,6 +314,29 @@ TEST(CrowdOnAServer, GoesThereAndBackWithItsPublications) {
         auto store = RoadStore::open(file);
         EXPECT_EQ(store.maintenance.publish(roads_in_a_row(road_count), march_ms).changed, 0U);
     }
+}
+
+TEST(CrowdOnAServer, FetchesOnlyTheRoadsThatAForgottenCarDrove) {
+    EngineDatabase database{
+        Engine::postgresql, test_folder(), roads_in_a_row(road_count), of(PrivacyProfile::crowd)};
+    const auto store = database.import();
+    for (int car = 0; car < 4; ++car) {
+        const CrowdDrive drive{car, car, january_ms, 2000, false, car == 3 ? 2 : road_count};
+        const auto record = drive.record();
+        const auto passes = drive.passes();
+        const NewTrip trip{&record, passes, {}, false, {}};
+        store.trips->add_trips({&trip, 1});
+    }
+    fuse_all(*store.trips);
+    const auto whole = database.read().info();
+    const ForgetRequest request{.trips = {}, .vehicles = {"car 3"}};
+    RoadStore part{open_replica_to_forget(database.name(), request, {}, {})};
+    EXPECT_EQ(part.info().segments_with_passes, 20U);
+    EXPECT_EQ(part.info().passes, 80U); // of all four cars there
+    EXPECT_EQ(part.maintenance.forget(request).passes, 20U);
+    const auto left = database.read().info();
+    EXPECT_EQ(left.segments_with_passes, whole.segments_with_passes);
+    EXPECT_EQ(left.passes, whole.passes - 20);
 }
 
 TEST(CrowdOnAServer, GetsNoKeyThatItsCopiesTakeAway) {

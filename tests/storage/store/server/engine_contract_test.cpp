@@ -148,7 +148,7 @@ TEST_P(DatabaseOnAnyEngine, TellsTheHistoryOfASegment) {
 TEST_P(DatabaseOnAnyEngine, ForgetsATripAsIfItHadNeverBeenThere) {
     import_all();
     const auto gone = trip_record(2).sha256;
-    EXPECT_EQ(database_.maintain().maintenance.forget({.trips = {gone}, .vehicles = {}}).trips, 1U);
+    EXPECT_EQ(database_.forget({.trips = {gone}, .vehicles = {}}).trips, 1U);
     EXPECT_EQ(database_.read().digest(),
               Oracle(folder_ / "others.gpkg", {0, 1, 3, 4, 5}).store().digest());
 
@@ -164,13 +164,10 @@ TEST_P(DatabaseOnAnyEngine, ForgetsATripAsIfItHadNeverBeenThere) {
 TEST_P(DatabaseOnAnyEngine, ForgetsACarByItsName) {
     import_all();
     const auto car = trip_record(0).vehicle_id;
-    const auto forgotten =
-        database_.maintain().maintenance.forget({.trips = {}, .vehicles = {car}});
+    const auto forgotten = database_.forget({.trips = {}, .vehicles = {car}});
     EXPECT_GE(forgotten.trips, 1U);
     EXPECT_EQ(database_.read().info().trips, trip_count - forgotten.trips);
-    EXPECT_THAT(refusal_of([&] {
-                    database_.maintain().maintenance.forget({.trips = {}, .vehicles = {car}});
-                }),
+    EXPECT_THAT(refusal_of([&] { database_.forget({.trips = {}, .vehicles = {car}}); }),
                 HasSubstr("has no trip of vehicle"));
 }
 

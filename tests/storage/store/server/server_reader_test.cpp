@@ -4,6 +4,7 @@
 
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/fusion/store_version.hpp"
+#include "storage/store/server/copy/new_copy.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/reader/chunk_choice.hpp"
 #include "storage/store/server/reader/local_copy.hpp"
@@ -44,7 +45,14 @@ protected:
     /// What a reader without any kept copy sees.
     std::string digest_now() {
         ServerConnection server{database_.name()};
-        return StoreReader{open_server_copy(server, Database::Access::read, {}, {})}.digest();
+        return StoreReader{open_server_copy(server,
+                                            Database::Access::read,
+                                            {},
+                                            {},
+                                            [](RowsFromServer& rows, Database& file) {
+                                                fill_copy(rows, file, ServerContent::all);
+                                            })}
+            .digest();
     }
     static std::size_t number_of_copies() {
         std::size_t count = 0;
@@ -117,7 +125,7 @@ TEST_F(ServerReaders, KeepTheCopyFromOtherUsers) {
 TEST_F(ServerReaders, MakeTheCopyAnewAfterForgettingAndKeepNoOther) {
     import_rich_trips(*database_.import().trips, 3);
     const auto before = refreshed();
-    database_.maintain().maintenance.forget({.trips = {trip_record(1).sha256}, .vehicles = {}}, {});
+    database_.forget({.trips = {trip_record(1).sha256}, .vehicles = {}});
     EXPECT_FALSE(fs::exists(before)); // as the trip is to be gone at once
     EXPECT_FALSE(fs::exists(before.string() + "-wal"));
     EXPECT_EQ(read().info().trips, 2U);
@@ -134,7 +142,7 @@ TEST_F(ServerReaders, KeepACopyForEachAddressAsACloneOfAServerHasItsNumbers) {
     EXPECT_NE(usual, copy);
     EXPECT_EQ(refreshed_mirror(other, ServerContent::all, {}, {}), copy);
     EXPECT_EQ(number_of_copies(), 2U);
-    database_.maintain().maintenance.forget({.trips = {trip_record(1).sha256}, .vehicles = {}}, {});
+    database_.forget({.trips = {trip_record(1).sha256}, .vehicles = {}});
     EXPECT_EQ(number_of_copies(), 0U);
 }
 
@@ -262,7 +270,7 @@ TEST_F(ServerReaders, LeadANameToTheCopy) {
     LocalCopy copy{database_.name(), {}, {}};
     EXPECT_EQ(copy.file().filename(), "roads.gpkg");
     EXPECT_EQ(StoreReader::open(copy.file()).info().trips, 2U);
-    database_.maintain().maintenance.forget({.trips = {trip_record(1).sha256}, .vehicles = {}}, {});
+    database_.forget({.trips = {trip_record(1).sha256}, .vehicles = {}});
     copy.refresh({}); // the name leads to another file now
     EXPECT_EQ(StoreReader::open(copy.file()).info().trips, 1U);
     const LocalCopy file{folder_ / "roads.gpkg", {}, {}};
