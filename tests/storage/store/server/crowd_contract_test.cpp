@@ -224,7 +224,8 @@ TEST_P(CrowdOnAnyEngine, LeavesMarksOfOtherRoadsWhenACarIsForgotten) {
     drive_first_roads(9, january_ms, 2);
     drive_first_roads(8, january_ms, 5); // marks five roads
     forget("car 9");
-    EXPECT_EQ(database_->import().trips->waiting(), 30U); // what it drove is fused
+    // What it drove is fused; in a file, all.
+    EXPECT_EQ(database_->import().trips->waiting(), GetParam() == Engine::postgresql ? 30U : 0U);
     fuse();
     expect_as_in_file("fused");
     forget("car 8");
