@@ -26,6 +26,12 @@ constexpr std::array background_tables{"background", "place", "road_ref"};
 /// Tables that fusion of chosen passes reads besides the passes.
 constexpr std::array tables_of_fusion{"fusion_setting", "valid_from", "control_section"};
 
+/// Rows of segments are never used twice, also those that a later map removed: publications tell by
+/// them which segments they knew.
+constexpr const char* free_rows_of_segments =
+    "UPDATE sqlite_sequence SET seq = max(seq, (SELECT coalesce(max(last_segment), 0)"
+    " FROM publication)) WHERE name = 'segment'";
+
 void fill_new(RowsFromServer& rows, Database& file, const std::function<void()>& fill) {
     add_geometry_functions(file);
     fill_new_store(file, std::string{rows.classes().name}, rows.privacy(), [&] {
@@ -115,6 +121,9 @@ void fill_copy(RowsFromServer& rows, Database& file, ServerContent content) {
             } else if (table.file_table != nullptr) {
                 rows.copy_rows(table);
             }
+        }
+        if (content == ServerContent::all) {
+            file.run(free_rows_of_segments);
         }
     });
 }

@@ -1,6 +1,8 @@
 // What a database of a crowd does on any engine: the same sentences, tried on a GeoPackage and on
 // PostgreSQL, beside a file of the same key.
 
+#include "mapping/conflation/network_conflation.hpp"
+#include "storage/postgres/server_connection.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
 #include "support/files/files.hpp"
@@ -11,6 +13,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam::testing {
@@ -315,6 +318,22 @@ TEST(CrowdOnAServer, GoesThereAndBackWithItsPublications) {
         auto store = RoadStore::open(file);
         EXPECT_EQ(store.maintenance.publish(roads_in_a_row(road_count), march_ms).changed, 0U);
     }
+}
+
+TEST(CrowdOnAServer, UsesNoRowOfASegmentTwice) {
+    EngineDatabase database{
+        Engine::postgresql, test_folder(), roads_in_a_row(3), of(PrivacyProfile::crowd)};
+    database.maintain().maintenance.publish(roads_in_a_row(3), february_ms);
+    for (const auto& [before, after] : {std::pair{3, 2}, std::pair{2, 3}}) {
+        const auto old_roads = roads_in_a_row(before);
+        const auto roads = roads_in_a_row(after);
+        database.maintain().maintenance.update_network(
+            old_roads, roads, change_between(old_roads, roads), {"newer map", ""});
+    }
+    ServerConnection server{database.name()};
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.segment"), 60);
+    EXPECT_EQ(server.number("SELECT min(fid) FROM macadam.segment WHERE way_id = 3"),
+              1 + server.number("SELECT last_segment FROM macadam.publication"));
 }
 
 TEST(CrowdOnAServer, FetchesOnlyTheRoadsThatAForgottenCarDrove) {

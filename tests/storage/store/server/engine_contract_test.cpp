@@ -171,6 +171,18 @@ TEST_P(DatabaseOnAnyEngine, ForgetsACarByItsName) {
                 HasSubstr("has no trip of vehicle"));
 }
 
+TEST_P(DatabaseOnAnyEngine, ForgetsATripByWhichCarsWereCalibrated) {
+    import_all();
+    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    oracle.store().maintenance.calibrate();
+    database_.maintain().maintenance.calibrate();
+    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+    const ForgetRequest request{.trips = {trip_record(2).sha256}, .vehicles = {}};
+    EXPECT_TRUE(oracle.store().maintenance.forget(request).calibrated);
+    EXPECT_TRUE(database_.forget(request).calibrated);
+    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+}
+
 TEST_P(DatabaseOnAnyEngine, CountsPassesFromTheDayOfAResurfacing) {
     import_all();
     Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
