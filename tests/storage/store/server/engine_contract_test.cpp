@@ -5,6 +5,7 @@
 #include "support/files/files.hpp"
 #include "support/roads/edited_network.hpp"
 #include "support/roads/engine_world.hpp"
+#include "support/roads/fleet_passes.hpp"
 #include "support/roads/store_world.hpp"
 
 #include <gmock/gmock.h>
@@ -172,15 +173,25 @@ TEST_P(DatabaseOnAnyEngine, ForgetsACarByItsName) {
 }
 
 TEST_P(DatabaseOnAnyEngine, ForgetsATripByWhichCarsWereCalibrated) {
-    import_all();
-    Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
-    oracle.store().maintenance.calibrate();
+    constexpr int fleet_trips = 30;
+    auto file = fleet_store(folder_ / "oracle.gpkg", fleet_trips);
+    {
+        const auto database = database_.import();
+        for (int number = 0; number < fleet_trips; ++number) {
+            const auto record = trip_record(number);
+            const auto passes = passes_of_fleet(number);
+            const NewTrip trip{&record, passes, {}, false, {}};
+            database.trips->add_trips({&trip, 1});
+        }
+        fuse_all(*database.trips);
+    }
+    file.maintenance.calibrate();
     database_.maintain().maintenance.calibrate();
-    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+    EXPECT_EQ(database_.read().digest(), file.digest());
     const ForgetRequest request{.trips = {trip_record(2).sha256}, .vehicles = {}};
-    EXPECT_TRUE(oracle.store().maintenance.forget(request).calibrated);
+    EXPECT_TRUE(file.maintenance.forget(request).calibrated);
     EXPECT_TRUE(database_.forget(request).calibrated);
-    EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+    EXPECT_EQ(database_.read().digest(), file.digest());
 }
 
 TEST_P(DatabaseOnAnyEngine, CountsPassesFromTheDayOfAResurfacing) {
