@@ -33,14 +33,14 @@ export async function world() {
       const opened = await browser.newContext({ viewport: { width, height }, locale: 'en-GB', ...context });
       const page = await opened.newPage();
       if (!keeps) await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'serviceWorker', { value: undefined }));
-      page.setDefaultTimeout(20_000);
+      page.setDefaultTimeout(40_000);
       const wrong = [];
       page.on('request', (request) => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(url)) wrong.push(`asked ${request.url()}`); });
       page.on('pageerror', (error) => wrong.push(String(error)));
       page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) wrong.push(message.text()); });
       if (context.before) await context.before(page);
       await page.goto(url + path + hash);
-      const drawn = () => page.waitForSelector('#map[data-ready]', { timeout: 15_000 });
+      const drawn = () => page.waitForSelector('#map[data-ready]');
       if (ready) await drawn();
       return {
         page, wrong, drawn,

@@ -211,16 +211,15 @@ describe('the page', { timeout: 380_000 }, () => {
   });
 
   test('links the worst sections with the map both ways', async () => {
-    const { page, text, drawn, close } = await town.page();
+    const { page, text, close } = await town.page();
     const worst = town.query('--worst', '200');
     assert.equal(await page.locator('#worst-table tbody tr').count(), worst.length);
     await page.locator('#worst-1 button').click();
     await page.waitForSelector('.drawer dl');
-    await drawn();
+    await page.waitForFunction(() => Number(/map=([\d.]+)/.exec(location.hash)?.[1]) > 14); // the map went there
     const parts = worst[0].parts.map(({ way_id: way }) => String(way));
     assert.ok(parts.some((way) => page.url().includes(`s=${way}`)), page.url());
     assert.equal(await page.locator('tr[data-picked]').first().getAttribute('id'), 'worst-1');
-    assert.ok(Number(/map=([\d.]+)/.exec(page.url())[1]) > 14, 'the map went there');
     assert.ok((await text('.drawer')).length > 0);
     await close();
   });
@@ -523,11 +522,14 @@ describe('the page', { timeout: 380_000 }, () => {
     const { page, drawn, text, wrong, close } = await town.page(`#${at(lonely().detail, 15)}`, { keeps: true });
     const again = async () => { await page.reload(); await drawn(); };
     const keptUrls = () => page.evaluate(async () => (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat());
-    await page.waitForFunction(() => navigator.serviceWorker.controller, undefined, { timeout: 15_000 });
+    await page.waitForFunction(() => navigator.serviceWorker.controller);
     await again();
     await page.locator('#worst-1 button').click();
     await page.waitForSelector('.drawer dl');
-    await page.waitForFunction(async () => (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat().some((url) => /segments\/\d+\.json/.test(url)));
+    await page.waitForFunction(async () => {
+      const urls = (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat();
+      return [/segments\/\d+\.json/, /roads\.pmtiles\?part=/].every((kind) => urls.some((url) => kind.test(url)));
+    });
     await page.context().setOffline(true);
     await again();
     await page.waitForSelector('.drawer dl');

@@ -3,6 +3,7 @@ import { element } from './dom.js';
 import { distance_m } from './geometry.js';
 import { QualityWatch } from './quality.js';
 import { Recording } from './recording.js';
+import { holdRecording } from './recording_lock.js';
 import { fixColumn } from './samples.js';
 import { askForMotion, keepAwake, listen } from './sensors.js';
 import { TripStore } from './trip_store.js';
@@ -21,7 +22,9 @@ let language;
 let words;
 let view; // function that draws the present view
 let isSending = false;
+let isSendingWanted = false; // again, once what is being sent is through
 let sendTimer;
+let isStarting = false;
 
 const device = () => navigator.userAgent;
 
@@ -198,6 +201,7 @@ async function deleteThere(trip) {
 
 // Sends what the driver has given leave to send. Only one page of several does it at a time.
 async function sendAll() {
+  isSendingWanted = isSending;
   if (isSending || !navigator.onLine || !isSecureContext) {
     return;
   }
@@ -220,36 +224,67 @@ async function sendAll() {
   if (view && page.querySelector('ul.trips')) {
     await view();
   }
+  if (isSendingWanted) {
+    await sendAll();
+  }
 }
 
 // -------------------------------------------------------------------------------------- recording
 
+// Answers a tap on "Start trip". What was said of the try before is gone at once.
 async function startTrip() {
-  if (!isSecureContext) {
-    say(words('insecure'));
+  if (isStarting) {
     return;
   }
-  if (!(await askForMotion())) {
-    say(words('no_leave_motion'));
-    return;
+  isStarting = true;
+  say('');
+  try {
+    if (!isSecureContext) {
+      say(words('insecure'));
+    } else if (!(await askForMotion())) {
+      say(words('no_leave_motion'));
+    } else {
+      await withRecording(startNewTrip);
+    }
+  } finally {
+    isStarting = false;
   }
-  if (await isRecordingElsewhere()) {
-    say(words('other_page'));
-    return;
-  }
-  const trip = newTrip(Date.now(), await store.setting('vehicle_id'), await store.setting('car'));
-  await store.putTrip(trip);
-  await record(trip, []);
 }
 
-const recordLock = 'macadam-drive-record';
+// Does what only one page of several may do at a time. work(letGo): returns whether it goes on recording; then it is to
+// let go itself. Returns the same.
+async function withRecording(work) {
+  const letGo = await holdRecording();
+  if (!letGo) {
+    say(words('other_page'));
+    return false;
+  }
+  let goesOn = false;
+  try {
+    goesOn = await work(letGo);
+  } finally {
+    if (!goesOn) {
+      await letGo();
+    }
+  }
+  return goesOn;
+}
 
-const isRecordingElsewhere = async () => (await navigator.locks.query()).held.some((lock) => lock.name === recordLock);
+async function startNewTrip(letGo) {
+  const trip = newTrip(Date.now(), await store.setting('vehicle_id'), await store.setting('car'));
+  try {
+    await store.putTrip(trip);
+  } catch {
+    say(words('no_room'));
+    return false;
+  }
+  await record(trip, [], letGo);
+  return true;
+}
 
-async function record(trip, before) {
+// Records until the driver ends the trip. before: chunks that the trip has already; letGo: lets other pages record again.
+async function record(trip, before, letGo) {
   say('');
-  let unlock;
-  navigator.locks.request(recordLock, () => new Promise((resolve) => { unlock = resolve; }));
   navigator.storage?.persist?.();
   let seq = before.length === 0 ? 0 : before.at(-1).seq + 1;
   const state = { length_m: 0, awake: false, failed: false, last: null, begun_ms: null, now_ms: 0 };
@@ -306,7 +341,7 @@ async function record(trip, before) {
     await show(() => [heading('driving'), element('p', {}, words('working'))]);
     await Promise.all(writes);
     await endTrip(store, trip, device());
-    unlock();
+    await letGo();
     await show(homeView);
   });
   const draw = () => panel.draw(state, watch.assess(performance.now(), { isHidden: document.hidden }));
@@ -358,17 +393,34 @@ function drivePanel(stop) {
 
 function foundView(trip, chunks) {
   const min = number(recordedFor_ms(chunks) / 60000, 1);
+  // Another page may have gone on with it, or ended it, since this one was drawn.
+  const withTrip = async (work) => {
+    const goesOn = await withRecording(async (letGo) => {
+      const now = (await store.trips()).find(({ id, state }) => id === trip.id && state === 'recording');
+      return now ? work(now, letGo) : false;
+    });
+    if (!goesOn) {
+      await begin();
+    }
+  };
   const goOn = async () => {
+    say('');
     if (await askForMotion()) {
-      await record(trip, chunks);
+      await withTrip(async (now, letGo) => {
+        await record(now, await store.chunks(now.id), letGo);
+        return true;
+      });
     } else {
       say(words('no_leave_motion'));
     }
   };
   const endNow = async () => {
-    await show(() => [heading('driving'), element('p', {}, words('working'))]);
-    await endTrip(store, trip, device());
-    await show(homeView);
+    say('');
+    await withTrip(async (now) => {
+      await show(() => [heading('driving'), element('p', {}, words('working'))]);
+      await endTrip(store, now, device());
+      return false;
+    });
   };
   return [
     heading('found_heading'), element('p', {}, words('found_text', { date: dateOf(trip.begun_ms), min })),
@@ -387,7 +439,9 @@ async function begin() {
     return show(carView);
   }
   const open = (await store.trips()).find((trip) => trip.state === 'recording');
-  if (open && !(await isRecordingElsewhere())) {
+  const letGo = open && (await holdRecording());
+  if (letGo) { // no other page is at it
+    await letGo();
     return show(foundView, open, await store.chunks(open.id));
   }
   return show(homeView);

@@ -33,6 +33,8 @@ cg_to_front_m = 1.15
 sensors = ['acc', 'gyro']
 `;
 
+const patience_ms = 30_000; // of a machine that is busy
+
 let browser;
 let server;
 let drive; // a simulated drive
@@ -54,7 +56,7 @@ async function phone({ language = 'en-GB', colorScheme = 'light', width = 320, u
   const complaints = [];
   await context.addInitScript(installPositions);
   const page = await context.newPage();
-  page.setDefaultTimeout(10_000);
+  page.setDefaultTimeout(patience_ms);
   page.on('console', (message) => message.type() === 'error' && !/Failed to load resource|net::ERR/.test(message.text()) && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('request', (request) => ![new URL(url).hostname, '127.0.0.1'].includes(new URL(request.url()).hostname) && !request.url().startsWith('blob:') && complaints.push(request.url()));
@@ -110,6 +112,23 @@ function compared(found, expected) {
 
 const logText = ({ columns, rows }) =>
   `# macadam-trip 1\n# vehicle_id: phone-car\n# t0_utc: 2026-05-01T08:00:00Z\n${[columns.join(','), ...rows.map((row) => row.map((cell) => cell ?? '').join(','))].join('\n')}\n# end rows: ${rows.length}\n`;
+
+// Waits until it is so.
+async function until(isSo, what) {
+  for (const end = Date.now() + patience_ms; !(await isSo());) {
+    assert.ok(Date.now() < end, what);
+    await new Promise((done) => { setTimeout(done, 50); });
+  }
+}
+
+// The last motion row (samples.js) in the phone's database; null: it has none.
+const lastStored = (page) => page.evaluate(async () => {
+  const db = await new Promise((resolve) => { const r = indexedDB.open('macadam-drive'); r.onsuccess = () => resolve(r.result); });
+  const chunks = await new Promise((resolve) => { const r = db.transaction('chunks').objectStore('chunks').getAll(); r.onsuccess = () => resolve(r.result); });
+  db.close();
+  const rows = chunks.filter(({ motion }) => motion.length > 0).map(({ motion }) => Array.from(motion.slice(-10)));
+  return rows.sort((a, b) => a[0] - b[0]).at(-1) ?? null;
+});
 
 // Ends every process of the browser that has this profile, as a dead battery would.
 function kill(home) {
@@ -201,11 +220,12 @@ describe('the recorder in the browser', () => {
     assert.ok(!server.asked.some((line) => line.includes('/v1/')), 'asked before a tap');
     server.mood.next = 'lose_answer';
     await context.setOffline(true);
+    await page.waitForFunction(() => !navigator.onLine);
     await tap(page, /^Send/);
     await page.getByText('Waits for a network').waitFor();
     assert.ok(!server.asked.some((line) => line.includes('/v1/')));
     await context.setOffline(false); // now it goes; the server has it, but its answer is lost; a second later it is asked for
-    await page.getByText('Received by the server and deleted here.').waitFor({ timeout: 15_000 });
+    await page.getByText('Received by the server and deleted here.').waitFor();
     assert.deepEqual(server.asked.filter((line) => line.includes('/v1/')).map((line) => line.split(' ')[0]), ['PUT', 'GET']);
     assert.deepEqual([...server.trips.values()][0], bytes);
     assert.equal(await page.getByRole('button', { name: /^Save file/ }).count(), 0);
@@ -248,7 +268,7 @@ describe('the recorder in the browser', () => {
       const [, id] = /# vehicle_id: (\S+)/.exec(bytes.toString());
       writeFileSync(join(cars, `${id}.toml`), readFileSync(join(folder, 'fleet/vehicles/phone-car.toml'), 'utf8').replace('"phone-car"', `"${id}"`));
       await tap(page, /^Send/);
-      await page.getByText('Received by the server and deleted here.').waitFor({ timeout: 15_000 });
+      await page.getByText('Received by the server and deleted here.').waitFor();
       const token = await page.evaluate(async () => { // as the page keeps it
         const open = indexedDB.open('macadam-drive');
         await new Promise((done) => { open.onsuccess = done; });
@@ -270,7 +290,7 @@ describe('the recorder in the browser', () => {
       console.log(`${count} segments, mean IRI ${(100 * (ratio - 1)).toFixed(2)} % apart after the upload`);
       assert.ok(count > 60, `${count} segments in common`);
       assert.ok(Math.abs(ratio - 1) < 0.03, `${ratio}`);
-      assert.deepEqual(readdirSync(join(folder, 'way.gpkg.uploads/spool')), []); // the log is erased
+      await until(() => readdirSync(join(folder, 'way.gpkg.uploads/spool')).length === 0, 'the log is not erased');
       page.once('dialog', (dialog) => dialog.accept());
       await tap(page, /^Delete at the server/);
       await page.getByText('Deleted at the server.').waitFor();
@@ -287,7 +307,7 @@ describe('the recorder in the browser', () => {
       const context = await chromium.launchPersistentContext(home, { ...browserOptions, viewport: { width: 320, height: 640 }, locale: 'en-GB', acceptDownloads: true });
       await context.addInitScript(installPositions);
       const page = context.pages()[0] ?? await context.newPage();
-      page.setDefaultTimeout(10_000);
+      page.setDefaultTimeout(patience_ms);
       await page.goto(server.url);
       return { context, page };
     };
@@ -298,20 +318,14 @@ describe('the recorder in the browser', () => {
     await start(page);
     const begun_ms = await page.evaluate(() => performance.timeOrigin);
     await play(page, events.slice(0, half), { pause_ms: 20 });
-    // the disk has two seconds, as the promise is five
-    await page.waitForTimeout(2000);
+    const lost_s = async () => events[half - 1][0] - (((await lastStored(page))?.[0] ?? -Infinity) - begun_ms - 1000) / 1000;
+    await until(async () => (await lost_s()) < 5, 'what the drive brought is not stored');
     kill(home);
     await context.close().catch(() => {});
     rmSync(join(home, 'SingletonLock'), { force: true });
     ({ context, page } = await open());
     await page.getByText('A trip was interrupted').waitFor();
-    const last_s = await page.evaluate(async (origin_ms) => {
-      const db = await new Promise((resolve) => { const r = indexedDB.open('macadam-drive'); r.onsuccess = () => resolve(r.result); });
-      const chunks = await new Promise((resolve) => { const r = db.transaction('chunks').objectStore('chunks').getAll(); r.onsuccess = () => resolve(r.result); });
-      db.close();
-      return (Math.max(...chunks.flatMap((chunk) => (chunk.motion.length ? [chunk.motion[chunk.motion.length - 10]] : []))) - origin_ms - 1000) / 1000;
-    }, begun_ms);
-    assert.ok(events[half - 1][0] - last_s < 5, `${events[half - 1][0]} ${last_s}`);
+    assert.ok((await lost_s()) < 5, `${await lost_s()} s`);
     await tap(page, 'Go on recording');
     await page.getByRole('button', { name: 'End trip' }).waitFor();
     const shift_ms = begun_ms - await page.evaluate(() => performance.timeOrigin);
@@ -339,7 +353,7 @@ describe('the recorder in the browser', () => {
   it('the browser\u2019s own sensors are understood, and faults are told in words', async () => {
     const real = await browser.newContext({ locale: 'en-GB', permissions: ['geolocation', 'accelerometer', 'gyroscope', 'magnetometer'], geolocation: { latitude: 48.41, longitude: 15.6, accuracy: 65 } });
     const live = await real.newPage();
-    live.setDefaultTimeout(10_000);
+    live.setDefaultTimeout(patience_ms);
     await live.goto(server.url);
     const cdp = await real.newCDPSession(live);
     const sensors = ['accelerometer', 'linear-acceleration', 'gyroscope'];
@@ -354,16 +368,12 @@ describe('the recorder in the browser', () => {
     await start(live);
     await live.getByText('The position is only good to 65 m').waitFor();
     await live.getByText('tilt 12°, steady').waitFor();
-    const rate = Number.parseInt(await live.locator('#figure-rate').textContent(), 10);
-    assert.ok(rate >= 45 && rate <= 70, `${rate}`);
+    // 60 readings a second, of which a busy machine loses some for a while
+    await live.waitForFunction(() => { const rate = Number.parseInt(document.querySelector('#figure-rate').textContent, 10); return rate >= 45 && rate <= 70; });
     await set('gyroscope', { x: 1, y: 0, z: 0 });
     await live.getByText('The phone is loose or in the hand').waitFor();
-    const turn = await live.evaluate(async () => {
-      await new Promise((later) => { setTimeout(later, 2500); });
-      const db = await new Promise((resolve) => { const r = indexedDB.open('macadam-drive'); r.onsuccess = () => resolve(r.result); });
-      const chunks = await new Promise((resolve) => { const r = db.transaction('chunks').objectStore('chunks').getAll(); r.onsuccess = () => resolve(r.result); });
-      return Array.from(chunks.at(-1).motion.slice(-10, chunks.at(-1).motion.length)).slice(1);
-    });
+    let turn;
+    await until(async () => (turn = (await lastStored(live))?.slice(1))?.[6] > 0.5, 'the turn is not stored');
     // Chromium rounds to 0.1 m/s2 and 0.1 degree/s
     [0, 2.0, 9.6, 0, 0, 0, 1, 0, 0].forEach((expected, i) => assert.ok(Math.abs(turn[i] - expected) < 0.06, `${turn}`));
     await real.close();
@@ -385,6 +395,45 @@ describe('the recorder in the browser', () => {
     await page.getByText('This phone gave no leave to read its sensors.').waitFor();
     await start(page);
     assert.deepEqual(await page.evaluate(() => globalThis.asked), [true, true, true, true]);
+    await context.close();
+  });
+
+  it('two pages never record at once, and one that ends its trip lets the other record', async () => {
+    const { context, page, complaints } = await phone();
+    await getReady(page);
+    await start(page);
+    const second = await context.newPage();
+    second.setDefaultTimeout(patience_ms);
+    await second.goto(server.url);
+    await tap(second, 'Start trip');
+    await second.getByText('Another page records already.').waitFor();
+    await tap(page, 'End trip');
+    await page.getByRole('button', { name: 'Start trip' }).waitFor();
+    // the notice of the try before is gone at once
+    const said = await second.getByRole('button', { name: 'Start trip' }).evaluate((button) => { button.click(); return document.getElementById('notice').textContent; });
+    assert.equal(said, '');
+    await second.getByRole('button', { name: 'End trip' }).waitFor();
+    await tap(page, 'Start trip');
+    await page.getByText('Another page records already.').waitFor();
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+
+  it('a trip that is to be sent while another is on its way is sent after it', async () => {
+    const { context, page } = await phone();
+    await recorded(page);
+    await start(page);
+    await play(page, eventsOf(shortDrive));
+    await tap(page, 'End trip');
+    await page.getByRole('button', { name: /^Save file/ }).nth(1).waitFor();
+    let release;
+    const held = new Promise((resolve) => { release = resolve; });
+    await page.route('**/v1/trips/*', async (route) => { await held; await route.continue(); });
+    await Promise.all([page.waitForRequest('**/v1/trips/*'), tap(page, /^Send/)]);
+    await tap(page, /^Send/);
+    await until(async () => (await page.getByRole('button', { name: /^Send/ }).count()) === 0, 'the second is not queued');
+    release();
+    await page.getByText('Received by the server and deleted here.').nth(1).waitFor();
     await context.close();
   });
 
@@ -435,7 +484,7 @@ describe('the recorder in the browser', () => {
       await press(words('Start trip', 'Fahrt beginnen'));
       await page.getByRole('button', { name: words('End trip', 'Fahrt beenden') }).waitFor();
       await play(page, eventsOf(shortDrive));
-      await page.waitForTimeout(1200);
+      await page.waitForFunction(() => /^[1-9]\d*:/.test(document.querySelector('#figure-time').textContent)); // the figures are drawn
       await look('recording');
       await press(words('End trip', 'Fahrt beenden'));
       await page.getByRole('button', { name: words(/^Save file/, /^Datei sichern/) }).waitFor();
