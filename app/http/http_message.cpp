@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace macadam {
@@ -19,10 +20,26 @@ int hex_digit(char letter) {
                                             : -1;
 }
 
+std::int64_t modified_ns(const struct stat& status) {
+    return status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec;
+}
+
 } // namespace
 
 HttpOpenFile::HttpOpenFile(const std::filesystem::path& path)
-    : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)} {}
+    : number_{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)} {
+    struct stat status {};
+    if (number_ >= 0 && fstat(number_, &status) == 0) {
+        size_ = status.st_size;
+        modified_ns_ = modified_ns(status);
+    }
+}
+
+bool HttpOpenFile::is_unchanged() const {
+    struct stat status {};
+    return fstat(number_, &status) == 0 && status.st_size == size_ &&
+           modified_ns(status) == modified_ns_;
+}
 
 HttpOpenFile::~HttpOpenFile() {
     if (number_ >= 0) {

@@ -52,8 +52,14 @@ public:
 
     int number() const { return number_; } ///< < 0: it could not be opened
 
+    /// Tells whether nothing was written to it since it was opened. (A file that is put in its
+    /// place does not count.)
+    bool is_unchanged() const;
+
 private:
     int number_;
+    std::int64_t size_ = 0;
+    std::int64_t modified_ns_ = 0;
 };
 
 /// File that a response sends in part or whole.

@@ -1,5 +1,6 @@
 #include "app/http/http_server.hpp"
 
+#include "app/http/client_loads.hpp"
 #include "app/http/connection_deadlines.hpp"
 #include "app/http/http_stream.hpp"
 #include "app/http/listening_socket.hpp"
@@ -14,9 +15,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <deque>
 #include <exception>
-#include <map>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -33,6 +35,10 @@ using Clock = std::chrono::steady_clock;
 
 /// Bytes of responses that clients have not yet read; more are refused, whoever reads slowly.
 constexpr std::uint64_t max_unread_bytes = 256U << 20U;
+
+/// Answers of at most so many bytes are never refused for others that are not yet read: who
+/// downloads a table goes on seeing the map.
+constexpr std::uint64_t small_answer_bytes = 256U << 10U;
 
 /// Bytes of a body that wait in memory until they are handed on.
 constexpr std::size_t block_bytes = std::size_t{32} * 1024;
@@ -214,15 +220,13 @@ struct HttpServer::Impl final : MhdEvents {
         if (handlers.lane) {
             exchange.lane = std::min(handlers.lane(exchange.request), lanes.size() - 1);
         }
-        if (lanes[exchange.lane].is_full() || unread_bytes > max_unread_bytes) {
+        if (lanes[exchange.lane].is_full() || loads.unread_bytes() > max_unread_bytes) {
             return busy(503, "more is asked than this server can answer now");
         }
         if (config.behind_proxy) {
-            auto& count = requests_of[exchange.request.client];
-            if (count >= config.max_per_address) {
+            if (!loads.add_request(exchange.request.client, config.max_per_address)) {
                 return busy(429, "too many requests of one address at once");
             }
-            ++count;
             exchange.is_counted = true;
         }
         return std::nullopt;
@@ -240,12 +244,34 @@ struct HttpServer::Impl final : MhdEvents {
         exchange.response = finish(exchange.request, std::move(response), config.allowed_origin);
     }
 
-    MHD_Result queue_response(MHD_Connection* connection, Exchange& exchange) {
-        auto& response = exchange.response;
+    static std::uint64_t content_bytes(const Exchange& exchange) {
+        const auto& response = exchange.response;
         const bool has_content = exchange.request.method != "HEAD" && response.status != 304;
-        const auto bytes = has_content ? response.part.size : 0;
-        exchange.unread_bytes = response.file ? 0 : bytes;
-        unread_bytes += exchange.unread_bytes;
+        return has_content ? response.part.size : 0;
+    }
+
+    /// Counts the bytes of a response that is kept in memory until it is read, or refuses it: who
+    /// reads nothing shall take no room from others.
+    void count_unread(Exchange& exchange) {
+        const auto add = [this, &exchange] {
+            const auto bytes = exchange.response.file ? 0 : content_bytes(exchange);
+            const auto most = bytes <= small_answer_bytes
+                                  ? std::numeric_limits<std::uint64_t>::max()
+                                  : config.max_unread_per_address;
+            const bool has_room = loads.add_unread(exchange.request.client, bytes, most);
+            exchange.unread_bytes = has_room ? bytes : 0;
+            return has_room;
+        };
+        if (!add()) {
+            answer(exchange, busy(429, "this address has not read its earlier answers"));
+            add();
+        }
+    }
+
+    MHD_Result queue_response(MHD_Connection* connection, Exchange& exchange) {
+        count_unread(exchange);
+        auto& response = exchange.response;
+        const auto bytes = content_bytes(exchange);
         deadlines.set(
             socket_of(connection),
             config.response_time +
@@ -272,12 +298,9 @@ struct HttpServer::Impl final : MhdEvents {
         if (!exchange) {
             return;
         }
-        unread_bytes -= exchange->unread_bytes;
+        loads.remove_unread(exchange->request.client, exchange->unread_bytes);
         if (exchange->is_counted) {
-            const auto count = requests_of.find(exchange->request.client);
-            if (--count->second == 0) {
-                requests_of.erase(count);
-            }
+            loads.remove_request(exchange->request.client);
         }
         if (exchange->is_begun) {
             --at_work;
@@ -372,9 +395,8 @@ struct HttpServer::Impl final : MhdEvents {
     mutable ConnectionDeadlines deadlines;
     std::atomic<std::size_t> connections = 0;
     std::atomic<std::size_t> at_work = 0;
-    std::atomic<std::uint64_t> unread_bytes = 0;
-    std::map<std::string, std::size_t> requests_of; ///< of clients, at work
-    std::mutex streams_mutex;                       ///< guards the two below
+    ClientLoads loads;
+    std::mutex streams_mutex; ///< guards the two below
     std::vector<std::weak_ptr<HttpStream>> streams;
     bool is_draining = false;
     std::deque<WorkerLane> lanes;

@@ -34,6 +34,8 @@ struct HttpServerConfig {
 
     std::size_t max_connections = 2000;
     std::size_t max_per_address = 64; ///< connections; behind a proxy, requests at work
+    /// Bytes of large answers that one address has asked for and not read; one may be larger.
+    std::uint64_t max_unread_per_address = std::uint64_t{64} << 20U;
     std::size_t max_head_bytes = std::size_t{16} * 1024;
     std::size_t max_target_bytes = std::size_t{8} * 1024;
     std::size_t max_waiting = 512; ///< requests that wait for a worker

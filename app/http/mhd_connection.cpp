@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
+#include <unistd.h>
 
 namespace macadam {
 namespace {
@@ -51,6 +51,24 @@ void free_stream(void* received) {
     own->stream->close();
 }
 
+/// Part of a file that is being sent.
+struct SentFile {
+    std::shared_ptr<const HttpOpenFile> open;
+    std::uint64_t first;
+};
+
+/// Reads on; a file that was written to meanwhile ends the connection before its end, since one
+/// answer with parts of two versions would look whole.
+ssize_t read_file(void* sent, std::uint64_t position, char* to, std::size_t max) {
+    const auto& [open, first] = *static_cast<const SentFile*>(sent);
+    const auto count = pread(open->number(), to, max, static_cast<off_t>(first + position));
+    return count > 0 && open->is_unchanged() ? count : MHD_CONTENT_READER_END_WITH_ERROR;
+}
+
+void free_file(void* sent) {
+    delete static_cast<SentFile*>(sent);
+}
+
 MHD_Response* response_of(MHD_Connection* connection, FinishedResponse& finished) {
     if (finished.stream) {
         constexpr std::size_t block = 4096;
@@ -61,11 +79,15 @@ MHD_Response* response_of(MHD_Connection* connection, FinishedResponse& finished
             new ReceivedStream{std::move(finished.stream), connection},
             free_stream);
     }
-    if (finished.file && finished.status != 304 && finished.status != 416) {
-        const int file = fcntl(finished.file->open->number(), F_DUPFD_CLOEXEC, 0);
-        return file < 0 ? nullptr
-                        : MHD_create_response_from_fd_at_offset64(
-                              finished.part.size, file, finished.part.first);
+    const bool has_file = finished.file && finished.status != 304 && finished.status != 416;
+    if (has_file && finished.part.size > 0) {
+        constexpr std::size_t block = std::size_t{32} * 1024;
+        return MHD_create_response_from_callback(
+            finished.part.size,
+            block,
+            read_file,
+            new SentFile{finished.file->open, finished.part.first},
+            free_file);
     }
     auto* const body = new std::string{std::move(finished.body)};
     return MHD_create_response_from_buffer_with_free_callback_cls(

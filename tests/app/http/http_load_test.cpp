@@ -172,6 +172,36 @@ TEST(HttpLoad, ClosesConnectionsOfThoseWhoDoNotRead) {
     SUCCEED();
 }
 
+TEST(HttpLoad, RefusesMoreToAnAddressThatReadsNothing) {
+    auto few = text_config();
+    few.behind_proxy = true;
+    few.hosts = {"roads.example"};
+    few.max_unread_per_address = 50'000'000;
+    auto made = text_handlers();
+    made.answer = [](const HttpRequest&, std::size_t) {
+        return HttpResponse{.type = "image/png", .body = std::string(20'000'000, 'a')};
+    };
+    std::atomic<int> answered = 0;
+    made.record = [&](const HttpRecord& record) { answered += record.status == 200 ? 1 : 0; };
+    const HttpServer server{few, made};
+    std::deque<HttpClient> lazy;
+    for (int i = 0; i < 2; ++i) {
+        lazy.emplace_back(server.port())
+            .send("GET /a HTTP/1.1\r\nHost: roads.example\r\nX-Forwarded-For: 1.2.3.4\r\n\r\n");
+    }
+    while (answered < 2) { // the test's time limit ends it
+        std::this_thread::sleep_for(1ms);
+    }
+    const auto third = get(server.port(), "/a", "X-Forwarded-For: 1.2.3.4\r\n");
+    EXPECT_EQ(third.status, 429);
+    EXPECT_EQ(third.headers.at("retry-after"), "1");
+    EXPECT_EQ(get(server.port(), "/a", "X-Forwarded-For: 1.2.3.5\r\n").body.size(), 20'000'000U);
+    EXPECT_EQ(get(server.port(), "/health", "X-Forwarded-For: 1.2.3.4\r\n").body, "well");
+    for (auto& client : lazy) { // what was promised comes
+        EXPECT_EQ(client.answer().body.size(), 20'000'000U);
+    }
+}
+
 TEST(HttpLoad, RefusesAddressesWithTooManyConnections) {
     auto few = text_config();
     few.max_per_address = 3;

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,24 @@ TEST(StaticFolder, SendsAFileThatIsRemovedMeanwhile) {
     };
     const HttpServer server{text_config(), made};
     EXPECT_EQ(get(server.port(), "/page.html").body, "<html>");
+}
+
+TEST(StaticFolder, MixesNoVersionsOfAFileThatIsWrittenToMeanwhile) {
+    const FileWorld world;
+    const std::size_t size = 40'000'000; // more than a connection keeps on its way
+    written(world.folder, "site/roads.bin", std::string(size, 'a'));
+    HttpClient client{world.server->port()};
+    client.send("GET /roads.bin HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    const auto head = client.read_until("\r\n\r\n");
+    EXPECT_TRUE(head.find("200 OK") != std::string::npos) << head;
+    {
+        std::fstream file{world.folder / "site/roads.bin", std::ios::in | std::ios::out};
+        file << std::string(size, 'b');
+    }
+    const auto body = client.read_until("b");
+    EXPECT_LT(body.size(), size); // cut, so that nobody takes it for whole
+    EXPECT_EQ(body.find('b'), std::string::npos);
+    EXPECT_EQ(get(world.server->port(), "/roads.bin").body, std::string(size, 'b'));
 }
 
 TEST(StaticFolder, ServesRangesOfFiles) {
