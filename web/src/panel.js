@@ -142,11 +142,12 @@ export function openPanel(place, data, totals, worst, act) {
       const bin = Math.min(47, Math.floor(each.iri / totals.bin_mm_per_m));
       bins.set(bin, (bins.get(bin) ?? 0) + km);
     }
+    const areBothDirections = !isSegments && features.every(({ last_seen: day }) => day === undefined); // below zoom 12, docs/reference/vector-tiles.md
     const most = 50;
     const sorted = [...roads.values()].sort((a, b) => b.sum / b.km - a.sum / a.km);
     const all = sorted.reduce((sum, { km }) => sum + km, 0);
     replace(view, features.length === 0 ? el('p', {}, w('site.none_in_view'), ' ', el('button', { type: 'button', onclick: act.toData }, w('site.to_data'))) : [
-      el('p', {}, w('site.in_view_total', { km: roadLength(all), iri: iri(sorted.reduce((sum, { sum: each }) => sum + each, 0) / all), unit: iriUnit() })),
+      el('p', {}, w(areBothDirections ? 'site.in_view_total_rougher' : 'site.in_view_total', { km: roadLength(all), iri: iri(sorted.reduce((sum, { sum: each }) => sum + each, 0) / all), unit: iriUnit() })),
       distribution(bins, totals.bin_mm_per_m, site.classes),
       el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.in_view') }, el('table', { id: 'view-table' }, el('caption', { class: 'hidden' }, w('site.in_view')),
         el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),

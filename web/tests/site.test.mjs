@@ -87,7 +87,7 @@ describe('a network of what tiles have shown', () => {
   });
 });
 
-describe('the page', { timeout: 380_000 }, () => {
+describe('the page', { timeout: 600_000 }, () => {
   test('opens the drawer with the numbers of query where the map is clicked', async () => {
     const { found, detail } = lonely();
     const { page, text, close } = await town.page(`#${at(detail)}`);
@@ -261,6 +261,15 @@ describe('the page', { timeout: 380_000 }, () => {
     await page.waitForSelector('.drawer dl');
     await close();
   });
+
+  for (const [zoom, direction] of [[11, 'mean IRI of the rougher direction'], [12.5, 'mean IRI [\\d.]+ mm']]) {
+    test(`says of which direction the mean in view is: zoom ${zoom}`, async () => {
+      const [west, south, east, north] = town.site.bounds;
+      const { page, close } = await town.page(`#map=${zoom}/${(south + north) / 2}/${(west + east) / 2}`);
+      await page.waitForFunction((words) => new RegExp(`km, ${words}`).test(document.querySelector('#view').textContent), direction);
+      await close();
+    });
+  }
 
   for (const how of ['by a key', 'by its address']) {
     test(`compares two months ${how}, and calls only what is beyond chance a change`, async () => {
