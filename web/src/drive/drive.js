@@ -282,12 +282,14 @@ async function startNewTrip(letGo) {
   return true;
 }
 
+const permissionDenied = 1; // of GeolocationPositionError; the others are gaps of the receiver
+
 // Records until the driver ends the trip. before: chunks that the trip has already; letGo: lets other pages record again.
 async function record(trip, before, letGo) {
   say('');
   navigator.storage?.persist?.();
   let seq = before.length === 0 ? 0 : before.at(-1).seq + 1;
-  const state = { length_m: 0, awake: false, failed: false, last: null, begun_ms: null, now_ms: 0 };
+  const state = { length_m: 0, awake: false, failed: false, isPositionRefused: false, last: null, begun_ms: null, now_ms: 0 };
   const watch = new QualityWatch();
   const writes = new Set();
   const recording = new Recording({
@@ -312,6 +314,7 @@ async function record(trip, before, letGo) {
     onOrientation: (event) => recording.addOrientation(event),
     onPosition: (position) => {
       const row = recording.addPosition(position);
+      state.isPositionRefused = false;
       watch.addFix(row, performance.now());
       seen(row[fixColumn.stamp_ms]);
       const place = { lat: row[fixColumn.lat], lon: row[fixColumn.lon] };
@@ -323,7 +326,9 @@ async function record(trip, before, letGo) {
         }
       }
     },
-    onPositionError: () => {},
+    onPositionError: ({ code }) => {
+      state.isPositionRefused = code === permissionDenied;
+    },
   });
   const flush = () => recording.flush();
   const flushTimer = setInterval(flush, 2000);
@@ -376,7 +381,10 @@ function drivePanel(stop) {
     cells.mounting.textContent = Number.isFinite(quality.tilt_deg)
       ? words(quality.isSteady ? 'tilt_steady' : 'tilt_moves', { n: number(quality.tilt_deg) })
       : words('measuring');
-    const problems = [...(state.failed ? ['no_room'] : []), ...quality.problems];
+    const problems = [
+      ...(state.failed ? ['no_room'] : []), ...(state.isPositionRefused ? ['no_leave_position'] : []),
+      ...quality.problems.filter((problem) => !(state.isPositionRefused && problem === 'no_gnss')),
+    ];
     const key = `${language} ${problems} ${state.awake}`;
     if (key === shown) {
       return;

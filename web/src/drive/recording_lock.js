@@ -2,9 +2,10 @@
 const lockName = 'macadam-drive-record';
 const patience_ms = 1000; // a page that is closed or loaded anew lets go a moment later
 
-// Takes the right. Returns null if another page keeps it, else a function that gives it back and resolves once other
-// pages can have it.
-export function holdRecording(locks = navigator.locks) {
+const isHeld = async (locks) => (await locks.query()).held.some(({ name }) => name === lockName);
+
+// Waits for the right for a second; null: it did not come.
+function waitForRight(locks) {
   return new Promise((resolve, reject) => {
     const held = locks.request(lockName, { signal: AbortSignal.timeout(patience_ms) }, () => new Promise((release) => {
       resolve(async () => {
@@ -15,4 +16,15 @@ export function holdRecording(locks = navigator.locks) {
     }));
     held.catch((error) => (error.name === 'TimeoutError' || error.name === 'AbortError' ? resolve(null) : reject(error)));
   });
+}
+
+// Takes the right. Returns null if another page keeps it, else a function that gives it back and resolves once other
+// pages can have it.
+export async function holdRecording(locks = navigator.locks) {
+  for (;;) {
+    const letGo = await waitForRight(locks);
+    if (letGo || (await isHeld(locks))) {
+      return letGo;
+    }
+  } // a busy phone took its time
 }

@@ -437,6 +437,22 @@ describe('the recorder in the browser', () => {
     await context.close();
   });
 
+  it('a leave to read positions that is withdrawn during the drive is told until positions come again', async () => {
+    const { context, page } = await phone();
+    await getReady(page);
+    await start(page);
+    const told = page.getByText('no longer gives leave to read its position');
+    const [, fix] = eventsOf(shortDrive).filter(([, kind]) => kind === 1);
+    await page.evaluate(() => globalThis.played.error({ code: 1 }));
+    await told.waitFor();
+    await play(page, [fix]);
+    await told.waitFor({ state: 'detached' });
+    await page.evaluate(() => globalThis.played.error({ code: 3 })); // a gap of the receiver
+    await page.evaluate(() => globalThis.played.error({ code: 1 }));
+    await told.waitFor();
+    await context.close();
+  });
+
   it('without https it says what is missing', async () => {
     const insecure = server.url.replace('127.0.0.1', 'phone.example');
     const { context, page, complaints } = await phone({ url: insecure });

@@ -16,8 +16,8 @@ export function installPositions() {
   globalThis.played = { position: null, watches: 0 };
   Object.defineProperty(navigator, 'geolocation', {
     value: {
-      watchPosition: (onPosition) => {
-        globalThis.played.position = onPosition;
+      watchPosition: (onPosition, onError) => {
+        Object.assign(globalThis.played, { position: onPosition, error: onError });
         return ++globalThis.played.watches;
       },
       clearWatch: () => { globalThis.played.position = null; },
