@@ -251,13 +251,13 @@ struct HttpServer::Impl final : MhdEvents {
     }
 
     /// Counts the bytes of a response that is kept in memory until it is read, or refuses it: who
-    /// reads nothing shall take no room from others.
+    /// reads nothing shall take no room from others. (A Unix socket tells nobody apart.)
     void count_unread(Exchange& exchange) {
         const auto add = [this, &exchange] {
             const auto bytes = exchange.response.file ? 0 : content_bytes(exchange);
-            const auto most = bytes <= small_answer_bytes
-                                  ? std::numeric_limits<std::uint64_t>::max()
-                                  : config.max_unread_per_address;
+            const bool is_free = bytes <= small_answer_bytes || exchange.request.client.empty();
+            const auto most =
+                is_free ? std::numeric_limits<std::uint64_t>::max() : config.max_unread_per_address;
             const bool has_room = loads.add_unread(exchange.request.client, bytes, most);
             exchange.unread_bytes = has_room ? bytes : 0;
             return has_room;
