@@ -58,7 +58,7 @@ void draw(const PdfSheets& sheets, const Origin& origin, const Band& band) {
     cairo_fill(sheets.cairo());
 }
 
-void draw(const PdfSheets& sheets, const Origin& origin, const Label& label) {
+void draw(PdfSheets& sheets, const Origin& origin, const Label& label) {
     const auto text =
         sheets.text(label.text, {.size_pt = letters_units * origin.scale, .rgb = print::quiet}, -1);
     const double base_pt = pango_units_to_double(pango_layout_get_baseline(text.layout()));

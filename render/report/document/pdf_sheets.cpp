@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -79,7 +80,7 @@ void PdfSheets::begin_page() {
     draw_map_surround();
 }
 
-void PdfSheets::draw_map_surround() const {
+void PdfSheets::draw_map_surround() {
     const PdfType quiet{.size_pt = head_size_pt, .rgb = print::quiet};
     auto right = quiet;
     right.to_the_right = true;
@@ -111,27 +112,47 @@ PdfSheets::text(const document::RichText& rich, const PdfType& type, double widt
     return {cairo_.get(), rich, type, width_pt};
 }
 
-void PdfSheets::draw(const PdfText& text, double x_pt, double y_pt) const {
+void PdfSheets::draw(const PdfText& text, double x_pt, double y_pt) {
+    const bool is_link = !text.target().empty() || !text.address().empty();
     set_colour(cairo_.get(), text.rgb());
     cairo_move_to(cairo_.get(), x_pt, y_pt);
-    if (!text.target().empty()) {
-        cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("dest=" + quoted(text.target())).c_str());
-    } else if (!text.address().empty()) {
-        cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("uri=" + quoted(text.address())).c_str());
+    if (is_link) {
+        begin(CAIRO_TAG_LINK,
+              text.target().empty() ? "uri=" + quoted(text.address())
+                                    : "dest=" + quoted(text.target()));
     }
+    record(text);
     pango_cairo_show_layout(cairo_.get(), text.layout());
     cairo_new_path(cairo_.get()); // avoids a line from the text's origin
-    if (!text.target().empty() || !text.address().empty()) {
-        cairo_tag_end(cairo_.get(), CAIRO_TAG_LINK);
+    if (is_link) {
+        end(CAIRO_TAG_LINK);
     }
 }
 
-void PdfSheets::begin(const char* tag) {
-    cairo_tag_begin(cairo_.get(), tag, "");
+void PdfSheets::begin(const char* tag, const std::string& attributes) {
+    if (!open_.empty()) {
+        open_.back().is_read = false; // but its children
+    }
+    open_.push_back({.number = access_.elements++, .is_read = tag != std::string_view{"Figure"}});
+    cairo_tag_begin(cairo_.get(), tag, attributes.c_str());
 }
 
 void PdfSheets::end(const char* tag) {
     cairo_tag_end(cairo_.get(), tag);
+    const auto& element = open_.back();
+    if (element.is_reordered && element.is_read) {
+        access_.spoken[element.number] = element.text;
+    }
+    open_.pop_back();
+}
+
+/// Adds a text to what the element that it is drawn in says.
+void PdfSheets::record(const PdfText& text) {
+    if (!open_.empty()) {
+        auto& element = open_.back();
+        element.text += (element.text.empty() ? "" : " ") + text.in_order_of_reading();
+        element.is_reordered = element.is_reordered || text.is_reordered();
+    }
 }
 
 void PdfSheets::fill(

@@ -7,9 +7,11 @@
 
 #include <cairo-pdf.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -41,7 +43,7 @@ public:
     PdfText text(const document::RichText& rich, const PdfType& type, double width_pt) const;
 
     /// Draws text with its upper left corner at a position.
-    void draw(const PdfText& text, double x_pt, double y_pt) const;
+    void draw(const PdfText& text, double x_pt, double y_pt);
     void fill(std::uint32_t rgb, double x_pt, double y_pt, double width_pt, double height_pt) const;
     void
     frame(std::uint32_t rgb, double x_pt, double y_pt, double width_pt, double height_pt) const;
@@ -61,7 +63,7 @@ public:
 
     /// Begins and ends an element of the structure that assistive software reads: "P", "H1",
     /// "Table". What is drawn outside of elements without children is decoration.
-    void begin(const char* tag);
+    void begin(const char* tag, const std::string& attributes = {});
     void end(const char* tag);
 
     /// Records the text alternative of the figure, or the scope of the heading of a table, that
@@ -75,12 +77,21 @@ public:
     std::string finished();
 
 private:
+    /// Element of the structure that has begun.
+    struct OpenElement {
+        std::size_t number;
+        bool is_read; ///< what is drawn in it: no decoration, and no figure
+        std::string text{};
+        bool is_reordered = false; ///< letters of the text run from right to left
+    };
+
     static constexpr double side_margin_pt = 42.52;   // 15 mm
     static constexpr double top_margin_pt = 51.02;    // 18 mm
     static constexpr double bottom_margin_pt = 51.02; // 18 mm
 
     double bottom_pt() const { return paper_.height_pt - bottom_margin_pt; }
-    void draw_map_surround() const;
+    void draw_map_surround();
+    void record(const PdfText& text);
     void begin_page();
     void paint(cairo_surface_t& image, double x_pt, double y_pt, double scale) const;
 
@@ -93,6 +104,7 @@ private:
     double y_pt_ = top_margin_pt;
     int page_ = 0;
     PdfAccess access_;
+    std::vector<OpenElement> open_;
 };
 
 /// Element of the structure during the lifetime of this value.

@@ -58,6 +58,7 @@ private:
 
 /// Elements of the structure that need more than Cairo writes, in reading order.
 struct Elements {
+    std::vector<QPDFObjectHandle> all;
     std::vector<QPDFObjectHandle> figures;
     std::vector<QPDFObjectHandle> headings;
 };
@@ -67,6 +68,9 @@ void collect(QPDFObjectHandle element, Elements& found, int depth) {
         return;
     }
     auto kind = element.getKey("/S");
+    if (kind.isName()) {
+        found.all.push_back(element);
+    }
     if (kind.isName() && kind.getName() == "/Figure") {
         found.figures.push_back(element);
     }
@@ -98,6 +102,10 @@ void describe_elements(QPDF& pdf, const PdfAccess& access) {
     collect(pdf.getRoot().getKey("/StructTreeRoot"), found, 0);
     expect_as_many(found.figures.size(), access.figures.size(), "figures");
     expect_as_many(found.headings.size(), access.heading_scope.size(), "headings of tables");
+    expect_as_many(found.all.size(), access.elements, "elements");
+    for (const auto& [number, text] : access.spoken) {
+        found.all[number].replaceKey("/ActualText", QPDFObjectHandle::newUnicodeString(text));
+    }
     for (std::size_t i = 0; i < found.figures.size(); ++i) {
         found.figures[i].replaceKey("/Alt", QPDFObjectHandle::newUnicodeString(access.figures[i]));
     }

@@ -2,7 +2,10 @@
 
 #include "estimator/common/utf8.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <initializer_list>
 #include <string_view>
 
 namespace macadam {
@@ -11,8 +14,10 @@ using namespace document;
 
 namespace {
 
-// From fonts-noto-core; Pango substitutes other installed fonts for missing scripts.
-constexpr const char* family = "Noto Sans,sans-serif";
+// From fonts-noto-core, first those of scripts that other fonts have too; Pango substitutes
+// installed fonts for missing scripts.
+constexpr const char* families = "Noto Sans,Noto Sans Arabic,Noto Sans Hebrew,Noto Sans Armenian,"
+                                 "Noto Sans Georgian,Noto Sans Lao,Noto Sans CJK {},sans-serif";
 constexpr float line_spacing = 1.12F; // relative to the font's own, which is 1.36 for Noto Sans
 
 struct FreeFont {
@@ -39,6 +44,25 @@ std::string cleaned(const std::string& text) {
         rest.remove_prefix(letter.size());
     }
     return clean;
+}
+
+/// Returns the font families for a text. Han characters take the shapes of the country whose
+/// letters are beside them, and by default those of China, as on maps.
+std::string families_for(const std::string& text) {
+    const auto has = [&](std::initializer_list<GUnicodeScript> scripts) {
+        for (const auto* c = text.c_str(); *c != '\0'; c = g_utf8_next_char(c)) {
+            if (std::ranges::find(scripts, g_unichar_get_script(g_utf8_get_char(c))) !=
+                scripts.end()) {
+                return true;
+            }
+        }
+        return false;
+    };
+    const auto* const country = has({G_UNICODE_SCRIPT_HIRAGANA, G_UNICODE_SCRIPT_KATAKANA}) ? "JP"
+                                : has({G_UNICODE_SCRIPT_HANGUL})                            ? "KR"
+                                : has({G_UNICODE_SCRIPT_BOPOMOFO})                          ? "TC"
+                                                                                            : "SC";
+    return fmt::format(families, country);
 }
 
 guint16 channel(std::uint32_t rgb, int shift) {
@@ -75,11 +99,9 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
     pango_cairo_context_set_resolution(context, 72); // one unit of the page is a point
     pango_context_set_round_glyph_positions(context, FALSE);
     const std::unique_ptr<PangoFontDescription, FreeFont> font{pango_font_description_new()};
-    pango_font_description_set_family(font.get(), family);
     pango_font_description_set_size(font.get(), pango_units_from_double(type.size_pt));
     pango_font_description_set_weight(font.get(),
                                       type.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
-    pango_layout_set_font_description(layout_.get(), font.get());
 
     std::string text;
     const std::unique_ptr<PangoAttrList, FreeAttributes> looks{pango_attr_list_new()};
@@ -93,6 +115,8 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
         target_ = span.target.empty() ? target_ : span.target;
         address_ = span.address.empty() ? address_ : span.address;
     }
+    pango_font_description_set_family(font.get(), families_for(text).c_str());
+    pango_layout_set_font_description(layout_.get(), font.get());
     insert(looks.get(), pango_attr_font_features_new("tnum=1"), 0, text.size());
     pango_layout_set_text(layout_.get(), text.data(), static_cast<int>(text.size()));
     pango_layout_set_attributes(layout_.get(), looks.get());
@@ -114,6 +138,18 @@ double PdfText::height_pt() const {
     int height = 0;
     pango_layout_get_size(layout_.get(), nullptr, &height);
     return pango_units_to_double(height);
+}
+
+bool PdfText::is_reordered() const {
+    const std::unique_ptr<PangoLayoutIter, decltype(&pango_layout_iter_free)> runs{
+        pango_layout_get_iter(layout_.get()), pango_layout_iter_free};
+    do {
+        const auto* const run = pango_layout_iter_get_run_readonly(runs.get());
+        if (run != nullptr && run->item->analysis.level != 0) {
+            return true;
+        }
+    } while (pango_layout_iter_next_run(runs.get()) != FALSE);
+    return false;
 }
 
 } // namespace macadam

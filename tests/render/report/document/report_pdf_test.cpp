@@ -23,6 +23,7 @@
 namespace macadam {
 namespace {
 
+using ::testing::AllOf;
 using testing::changed_town;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -277,6 +278,31 @@ TEST_F(ReportPdf, WritesAnyScript) {
     for (const auto* const word : {"Οδός", "Ермак", "улица"}) {
         EXPECT_THAT(text, HasSubstr(word));
     }
+}
+
+TEST_F(ReportPdf, SaysArabicInTheOrderOfReading) {
+    auto report = whole_report();
+    report.title = "Route شارع الملك 12, end";
+    const auto* const said =
+        "/usr/bin/python3 -c 'import sys, pikepdf\n"
+        "pdf = pikepdf.open(sys.argv[1])\n"
+        "for thing in pdf.objects:\n"
+        "    if isinstance(thing, pikepdf.Dictionary) and \"/ActualText\" in thing:\n"
+        "        print(thing.S, thing.ActualText)'";
+    EXPECT_EQ(by(said, report), "/H1 Route شارع الملك 12, end\n");
+    EXPECT_EQ(by(said, whole_report()), "");
+}
+
+TEST_F(ReportPdf, GivesHanCharactersTheShapesOfTheLettersBesideThem) {
+    const auto fonts = [this](const std::string& title) {
+        auto report = whole_report();
+        report.title = title;
+        return by("pdffonts", report);
+    };
+    EXPECT_THAT(fonts("门骨直"), AllOf(HasSubstr("CJKsc"), Not(HasSubstr("CJKjp"))));
+    EXPECT_THAT(fonts("骨直の"), AllOf(HasSubstr("CJKjp"), Not(HasSubstr("CJKsc"))));
+    EXPECT_THAT(fonts("骨直의"), AllOf(HasSubstr("CJKkr"), Not(HasSubstr("CJKjp"))));
+    EXPECT_THAT(fonts("شارع الملك"), AllOf(HasSubstr("NotoSansArabic"), Not(HasSubstr("DejaVu"))));
 }
 
 TEST_F(ReportPdf, LeadsFromATableToTheMapsOfItsStretches) {
