@@ -192,6 +192,7 @@ MapScene stretch_scene(const StoreReader& store,
     auto next = stretch.records.begin();
     store.visit(of_stretch, [&](const SegmentRecord& record) {
         MapLine line;
+        line.rank = subject_rank;
         line.name = record.name;
         line.line = record.segment.line;
         line.iri_class =

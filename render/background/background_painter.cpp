@@ -72,10 +72,12 @@ std::uint32_t background_colour(BackgroundKind kind, MapStyle::Theme theme) {
 
 PaintPart painted_background(std::vector<BackgroundShape> shapes,
                              MapStyle::Theme theme,
-                             std::uint32_t ground_rgb) {
+                             std::uint32_t ground_rgb,
+                             std::optional<BackgroundFade> fade) {
     return [shapes = std::make_shared<const std::vector<BackgroundShape>>(std::move(shapes)),
             theme,
-            ground_rgb](const PicturePart& part) {
+            ground_rgb,
+            fade](const PicturePart& part) {
         auto rgba = filled(part, ground_rgb);
         CoverageMask mask{part};
         for (std::size_t i = 0; i < shapes->size(); ++i) {
@@ -88,6 +90,9 @@ PaintPart painted_background(std::vector<BackgroundShape> shapes,
             if (i + 1 == shapes->size() || (*shapes)[i + 1].kind != shape.kind) {
                 mask.paint(rgba, background_colour(shape.kind, theme));
             }
+        }
+        if (fade) {
+            macadam::fade(*fade, part, ground_rgb, rgba);
         }
         return rgba;
     };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/style/base_map.hpp"
+#include "render/background/background_fade.hpp"
 #include "render/background/background_shapes.hpp"
 #include "render/scene/colour.hpp"
 
@@ -16,8 +17,10 @@ std::uint32_t background_colour(BackgroundKind kind, MapStyle::Theme theme);
 /// Paints shapes on the ground colour, opaque.
 ///
 /// \param shapes  sorted by kind
+/// \param fade    to the ground, if any
 PaintPart painted_background(std::vector<BackgroundShape> shapes,
                              MapStyle::Theme theme,
-                             std::uint32_t ground_rgb);
+                             std::uint32_t ground_rgb,
+                             std::optional<BackgroundFade> fade = {});
 
 } // namespace macadam

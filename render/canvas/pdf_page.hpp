@@ -63,6 +63,11 @@ public:
     /// \param rgba  opaque, top row first
     virtual void lay(const PicturePart& part, std::span<const std::uint8_t> rgba) = 0;
 
+    /// Covers a box with a colour whose opacity grows from none at one position to all at another,
+    /// by a cubic step, and remains so beyond.
+    virtual void
+    veil(const PixelBox& box, const PixelPoint& from, const PixelPoint& to, std::uint32_t rgb) = 0;
+
     virtual double width_px(const std::string& utf8, const TextLook& look) = 0;
 
     /// Clips the following drawing to the box, until end_clip().

@@ -21,6 +21,7 @@ constexpr const char* family = "Noto Sans"; // as in pictures
 struct Release {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
+    void operator()(cairo_pattern_t* pattern) const { cairo_pattern_destroy(pattern); }
     void operator()(PangoLayout* layout) const { g_object_unref(layout); }
     void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
     void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
@@ -158,6 +159,24 @@ public:
         cairo_rectangle(cairo_.get(), part.left_px, part.top_px, part.width_px, part.height_px);
         cairo_fill(cairo_.get());
         cairo_restore(cairo_.get());
+    }
+
+    void veil(const PixelBox& box,
+              const PixelPoint& from,
+              const PixelPoint& to,
+              std::uint32_t rgb) override {
+        constexpr int steps = 8; // straight pieces that look like the cubic
+        const auto channel = [&](unsigned shift) { return (rgb >> shift & 255U) / 255.0; };
+        const Owned<cairo_pattern_t> pattern{
+            cairo_pattern_create_linear(from.x, from.y, to.x, to.y)};
+        for (int i = 0; i <= steps; ++i) {
+            const double t = double(i) / steps;
+            cairo_pattern_add_color_stop_rgba(
+                pattern.get(), t, channel(16), channel(8), channel(0), t * t * (3 - 2 * t));
+        }
+        trace({box});
+        cairo_set_source(cairo_.get(), pattern.get());
+        cairo_fill(cairo_.get());
     }
 
     double width_px(const std::string& utf8, const TextLook& look) override {

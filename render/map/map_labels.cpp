@@ -78,6 +78,9 @@ double painted_half_width_px(const LineWidths& widths, const MapLine& line) {
     if (line.iri_class < 0) {
         return core_radius_px(widths, line.rank, true);
     }
+    if (line.rank == subject_rank) {
+        return subject_edge_radius_px(widths);
+    }
     return casing_radius_px(widths, line.rank, line.certain || line.few_passes) +
            (widths.separate_ways && line.both_ways ? way_offset_px(widths, line.rank) : 0);
 }

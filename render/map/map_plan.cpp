@@ -19,6 +19,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -175,6 +176,11 @@ void MapPlan::plan_insets() {
 void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events) {
     scene_.lines = std::move(lines);
     scene_.events = std::move(events);
+    for (const auto& line : scene_.lines) {
+        for (const auto& point : line.line) {
+            network_ = including(network_, point);
+        }
+    }
     const double scale =
         scale_denominator_of(map_frame(scene_, layout_, layout_.whole_map), layout_);
     const auto shown = [&](const MapLine& line) { return is_shown(line, scale); };
@@ -259,6 +265,22 @@ double MapPlan::ground_width_m() const {
     return size_.width_px * metres_per_px(placement_.frame, size_.height_px / 2.0);
 }
 
+std::optional<BackgroundFade> MapPlan::fade_of(std::span<const BackgroundShape> shapes) const {
+    constexpr double width_px = 40;
+    if (is_empty(network_)) {
+        return {};
+    }
+    const auto& [west_deg, south_deg, east_deg, north_deg] = network_;
+    const std::array corners{to_pixel(placement_.frame, {south_deg, west_deg}),
+                             to_pixel(placement_.frame, {south_deg, east_deg}),
+                             to_pixel(placement_.frame, {north_deg, west_deg}),
+                             to_pixel(placement_.frame, {north_deg, east_deg})};
+    const auto [left, right] = std::ranges::minmax(corners, {}, &PixelPoint::x);
+    const auto [top, bottom] = std::ranges::minmax(corners, {}, &PixelPoint::y);
+    return background_fade(
+        shapes, {left.x, top.y, right.x, bottom.y}, layout_.map, width_px * layout_.paper_unit);
+}
+
 void MapPlan::draw_sheet(DrawTarget& target) {
     const auto colours = palette(style_);
     draw_events(target, scene_.events, placement_.frame, layout_.map, layout_.paper_unit, colours);
@@ -288,10 +310,9 @@ void MapPlan::draw(const TakeRows& take, const Progress& progress) {
     RoadPainter painter{colours, class_colours(style_, classes_of(style_).classes.size())};
     auto ground = ground_of(scene_, style_, placement_.frame, size_);
     if (!ground && !background_.tiles.empty()) {
-        ground = painted_background(
-            shown_background(background_.tiles, scene_.box, placement_.frame, layout_),
-            style_.theme,
-            colours.ground);
+        auto shapes = shown_background(background_.tiles, scene_.box, placement_.frame, layout_);
+        const auto fade = fade_of(shapes);
+        ground = painted_background(std::move(shapes), style_.theme, colours.ground, fade);
     }
     painter.begin({.width_px = size_.width_px,
                    .height_px = size_.height_px,
@@ -335,9 +356,12 @@ void MapPlan::draw_on(PdfPage& page) {
     if (base) {
         page.lay(part_of(layout_.map), base(part_of(layout_.map)));
     } else {
-        draw_background(page,
-                        shown_background(background_.tiles, scene_.box, placement_.frame, layout_),
-                        style_.theme);
+        const auto shapes =
+            shown_background(background_.tiles, scene_.box, placement_.frame, layout_);
+        draw_background(page, shapes, style_.theme);
+        if (const auto fade = fade_of(shapes)) {
+            draw_fade(page, *fade, layout_.map, theme.ground);
+        }
     }
     if (base || !background_.tiles.empty()) {
         draw_unmeasured_edges(page, roads.strands, roads.widths, theme.ground);

@@ -3,6 +3,7 @@
 #include "mapping/background/background.hpp"
 #include "mapping/background/background_levels.hpp"
 #include "mapping/background/background_pieces.hpp"
+#include "render/background/background_fade.hpp"
 #include "render/canvas/pdf_page.hpp"
 #include "render/map/sheet/layout.hpp"
 #include "render/map/sheet/legend_placement.hpp"
@@ -100,6 +101,7 @@ public:
 
 private:
     void plan_insets();
+    std::optional<BackgroundFade> fade_of(std::span<const BackgroundShape> shapes) const;
     void plan_details();
     PictureSize inset_size(const PixelBox& box) const;
     void place_legend(const Legend& legend);
@@ -112,6 +114,7 @@ private:
     TypeSetter setter_;
     Layout layout_;
     MapBackground background_;
+    GeoBox network_{}; ///< box of the roads that were set
     Placement placement_;
     std::vector<MapPlan> insets_{};         ///< the last is the locator
     std::vector<PixelBox> inset_boxes_{};   ///< on the sheet

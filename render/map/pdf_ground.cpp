@@ -2,8 +2,10 @@
 
 #include "render/background/background_painter.hpp"
 #include "render/roads/road_polylines.hpp"
+#include "render/roads/stroke_geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +23,7 @@ bool is_measured(const Polyline& line) {
 PolylineRefs lines_of(std::span<const Polyline> lines, int rank, bool measured) {
     PolylineRefs found;
     for (const auto& line : lines) {
-        if (!line.looks.empty() && std::clamp(line.rank, 0, lowest_rank) == rank &&
+        if (!line.looks.empty() && std::clamp(line.rank, subject_rank, lowest_rank) == rank &&
             is_measured(line) == measured) {
             found.push_back(&line);
         }
@@ -93,14 +95,30 @@ void draw_background(PdfPage& page,
     }
 }
 
+void draw_fade(PdfPage& page,
+               const BackgroundFade& fade,
+               const PixelBox& map,
+               std::uint32_t ground_rgb) {
+    const auto& [left, top, right, bottom] = fade;
+    const auto veil = [&](const PixelBox& box, const PixelPoint& from, const PixelPoint& to) {
+        if (std::isfinite(from.x + from.y)) {
+            page.veil(box, from, to, ground_rgb);
+        }
+    };
+    veil({map.left, map.top, -left.first, map.bottom}, {-left.first, 0}, {-left.second, 0});
+    veil({right.first, map.top, map.right, map.bottom}, {right.first, 0}, {right.second, 0});
+    veil({map.left, map.top, map.right, -top.first}, {0, -top.first}, {0, -top.second});
+    veil({map.left, bottom.first, map.right, map.bottom}, {0, bottom.first}, {0, bottom.second});
+}
+
 void draw_unmeasured_edges(PdfPage& page,
                            std::span<const Polyline> lines,
                            const LineWidths& widths,
                            std::uint32_t rgb) {
-    for (int rank = lowest_rank; rank >= 0; --rank) {
+    for (int rank = lowest_rank; rank >= subject_rank; --rank) {
         draw(page,
              lines_of(lines, rank, false),
-             {unmeasured_edge_radius_px(widths, rank), ~std::uint64_t{0}, rgb});
+             {unmeasured_edge_radius_px(widths, rank), every_look, rgb});
     }
 }
 
@@ -109,13 +127,17 @@ void draw_roads(PdfPage& page,
                 const LineWidths& widths,
                 const Palette& palette,
                 std::span<const std::uint32_t> class_colours) {
-    for (int rank = lowest_rank; rank >= 0; --rank) {
+    for (int rank = lowest_rank; rank >= subject_rank; --rank) {
         draw(page,
              lines_of(lines, rank, false),
-             {unmeasured_radius_px(widths, rank), ~std::uint64_t{0}, palette.unmeasured});
+             {unmeasured_radius_px(widths, rank), every_look, palette.unmeasured});
     }
-    for (int rank = lowest_rank; rank >= 0; --rank) {
+    for (int rank = lowest_rank; rank >= subject_rank; --rank) {
         const auto measured = lines_of(lines, rank, true);
+        if (rank == subject_rank) {
+            draw(page, measured, {subject_air_radius_px(widths), every_look, palette.ground});
+            draw(page, measured, {subject_edge_radius_px(widths), every_look, palette.casing});
+        }
         for (const bool certain : {false, true}) {
             draw(page,
                  measured,

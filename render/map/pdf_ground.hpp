@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/background/background_fade.hpp"
 #include "render/background/background_shapes.hpp"
 #include "render/canvas/pdf_page.hpp"
 #include "render/roads/line_widths.hpp"
@@ -15,6 +16,14 @@ namespace macadam {
 ///
 /// \param shapes  sorted by kind
 void draw_background(PdfPage& page, std::span<const BackgroundShape> shapes, MapStyle::Theme theme);
+
+/// Fades a background to the ground.
+///
+/// \param map  on the page
+void draw_fade(PdfPage& page,
+               const BackgroundFade& fade,
+               const PixelBox& map,
+               std::uint32_t ground_rgb);
 
 /// Draws the roads as lines on a page, in the painting order of painted_roads, so that the page
 /// looks like the picture.

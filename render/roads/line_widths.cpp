@@ -1,5 +1,7 @@
 #include "render/roads/line_widths.hpp"
 
+#include "render/scene/scene.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -108,6 +110,17 @@ double unmeasured_radius_px(const LineWidths& widths, int rank) {
 
 double unmeasured_edge_radius_px(const LineWidths& widths, int rank) {
     return unmeasured_radius_px(widths, rank) + widths.casing_px;
+}
+
+double subject_edge_radius_px(const LineWidths& widths) {
+    constexpr double edge = 0.35; // of the core's width
+    return core_radius_px(widths, subject_rank, true) +
+           std::max(2 * widths.casing_px, edge * widths.core_px);
+}
+
+double subject_air_radius_px(const LineWidths& widths) {
+    constexpr double air = 0.5; // of the core's width
+    return subject_edge_radius_px(widths) + std::max(2 * widths.casing_px, air * widths.core_px);
 }
 
 double way_offset_px(const LineWidths& widths, int rank) {

@@ -41,6 +41,10 @@ double casing_radius_px(const LineWidths& widths, int rank, bool certain);
 double unmeasured_radius_px(const LineWidths& widths, int rank);
 double unmeasured_edge_radius_px(const LineWidths& widths, int rank);
 
+/// Return the radii of the edge around a map's subject, and of the ground kept free around that.
+double subject_edge_radius_px(const LineWidths& widths);
+double subject_air_radius_px(const LineWidths& widths);
+
 /// Returns the distance from the centre line of the road to that of one direction.
 double way_offset_px(const LineWidths& widths, int rank);
 

@@ -94,11 +94,17 @@ struct Layer {
     std::vector<Road> measured, unmeasured;
 };
 
-std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> polylines) {
-    std::array<Layer, lowest_rank + 1> layers;
+constexpr std::size_t layer_of(int rank) {
+    return std::size_t(std::clamp(rank, subject_rank, lowest_rank) - subject_rank);
+}
+
+using Layers = std::array<Layer, layer_of(lowest_rank) + 1>;
+
+Layers layers_of(std::span<const Polyline> polylines) {
+    Layers layers;
     for (const auto& polyline : polylines) {
         if (!polyline.looks.empty()) {
-            auto& layer = layers[std::size_t(std::clamp(polyline.rank, 0, lowest_rank))];
+            auto& layer = layers[layer_of(polyline.rank)];
             (is_measured(polyline) ? layer.measured : layer.unmeasured)
                 .push_back({&polyline, box_around(polyline), looks_of(polyline)});
         }
@@ -184,7 +190,7 @@ struct RoadPainter::Impl {
     Palette palette;
     std::vector<std::uint32_t> class_colours;
     Sheet sheet{};
-    std::array<Layer, lowest_rank + 1> layers{};
+    Layers layers{};
     LineWidths widths{};
     std::unique_ptr<GlRoadPainter> gl_painter{};
 };
@@ -221,22 +227,25 @@ void RoadPainter::Impl::paint_unmeasured(int rank,
     auto pass = view;
     pass.radius_px = radius_px;
     pass.looks = every_look;
-    draw(*gl_painter,
-         near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px),
-         pass,
-         rgb);
+    draw(*gl_painter, near(layers[layer_of(rank)].unmeasured, view.visible, radius_px), pass, rgb);
 }
 
 void RoadPainter::Impl::paint_measured(int rank, const StrokePass& view) {
-    const double widest_px =
-        std::max(casing_radius_px(widths, rank, true), casing_radius_px(widths, rank, false));
-    const auto roads = near(layers[std::size_t(rank)].measured, view.visible, widest_px);
+    const bool is_subject = rank == subject_rank;
+    const double widest_px = is_subject ? subject_air_radius_px(widths)
+                                        : std::max(casing_radius_px(widths, rank, true),
+                                                   casing_radius_px(widths, rank, false));
+    const auto roads = near(layers[layer_of(rank)].measured, view.visible, widest_px);
     const auto paint = [&](double radius_px, std::uint64_t looks, std::uint32_t rgb) {
         auto pass = view;
         pass.radius_px = radius_px;
         pass.looks = looks;
         draw(*gl_painter, roads, pass, rgb);
     };
+    if (is_subject) {
+        paint(subject_air_radius_px(widths), every_look, palette.ground);
+        paint(subject_edge_radius_px(widths), every_look, palette.casing);
+    }
     for (const bool certain : {false, true}) {
         paint(casing_radius_px(widths, rank, certain), looks_of(certain), palette.casing);
     }
@@ -265,15 +274,15 @@ void RoadPainter::Impl::paint(const Window& window) {
     if (map.width() > 0 && map.height() > 0) {
         if (sheet.ground) {
             lay_ground(window, map);
-            for (int rank = lowest_rank; rank >= 0; --rank) {
+            for (int rank = lowest_rank; rank >= subject_rank; --rank) {
                 paint_unmeasured(
                     rank, view, unmeasured_edge_radius_px(widths, rank), palette.ground);
             }
         }
-        for (int rank = lowest_rank; rank >= 0; --rank) {
+        for (int rank = lowest_rank; rank >= subject_rank; --rank) {
             paint_unmeasured(rank, view, unmeasured_radius_px(widths, rank), palette.unmeasured);
         }
-        for (int rank = lowest_rank; rank >= 0; --rank) {
+        for (int rank = lowest_rank; rank >= subject_rank; --rank) {
             paint_measured(rank, view);
         }
     }

@@ -24,8 +24,8 @@ struct Sheet {
 };
 
 /// Paints sheets with their roads: those without a measurement below all others; then rank by rank,
-/// service roads first, all casings of a rank before all its cores. Among roads painted together
-/// the order is that of the polylines.
+/// service roads first, all casings of a rank before all its cores; the map's subject last. Among
+/// roads painted together the order is that of the polylines.
 ///
 /// A pixel depends on its position on the polylines' plane and on the polylines near it, not on the
 /// sheet or on the rows painted with it.

@@ -20,6 +20,10 @@
 
 namespace macadam {
 
+/// Rank of what a map is about: over all other roads, as wide as a motorway and with a wide edge
+/// that sets it off from neighbours of the same colour.
+inline constexpr int subject_rank = -1;
+
 /// Interval of a road on the map, in driving direction. Consecutive intervals that touch and look
 /// alike are joined before drawing.
 struct MapLine {
@@ -27,7 +31,7 @@ struct MapLine {
     int iri_class = -1;      ///< in the class table; -1: road without a measurement
     bool both_ways = false;  ///< the other direction is a separate line: each keeps to its side
     bool forward = true;     ///< along its way; false for one of a pair of both_ways lines
-    int rank = 0;            ///< 0 motorway .. 5 service: determines the width
+    int rank = 0;            ///< 0 motorway .. 5 service, or subject_rank: determines the width
     bool certain = true;     ///< false: few passes or a wide interval, drawn thinner
     bool few_passes = false; ///< fewer than required: grey in a casing, regardless of class
     std::string name;        ///< of the road, for its label

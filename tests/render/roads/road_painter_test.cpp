@@ -105,6 +105,21 @@ const Polyline level = strand({{10, 20}, {50, 20}}, {look_of(1, true)});
 
 } // namespace
 
+TEST(RoadPainter, SetsTheSubjectOffFromNeighboursOfItsColour) {
+    auto subject = strand({{10, 24}, {54, 24}}, {look_of(1, true)});
+    subject.rank = subject_rank;
+    const auto neighbour = strand({{30, 4}, {30, 44}}, {look_of(1, true)});
+    const auto image = painted({subject, neighbour});
+    EXPECT_EQ(pixel(image, 30, 24), poor);
+    const double core_px = core_radius_px(widths, subject_rank, true);
+    const double edge_px = subject_edge_radius_px(widths);
+    const double air_px = subject_air_radius_px(widths);
+    EXPECT_GT(edge_px, casing_radius_px(widths, 0, true)) << "no wider than of any other road";
+    EXPECT_EQ(pixel(image, 30, int(24 - (core_px + edge_px) / 2)), colours.casing);
+    EXPECT_EQ(pixel(image, 30, int(24 - (edge_px + air_px) / 2)), colours.ground);
+    EXPECT_EQ(pixel(image, 30, int(24 - air_px - 3)), poor) << "of the neighbour";
+}
+
 TEST(RoadPainter, ShowsTheClassInTheMiddleCasingBesideItAndGroundElsewhere) {
     const auto image = painted({level});
     for (const int y : {17, 19, 20, 22}) {
