@@ -2,6 +2,7 @@
 
 #include "app/render/change_map.hpp"
 #include "estimator/common/error.hpp"
+#include "render/canvas/palette_png.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -36,7 +37,7 @@ PictureSize map_size(const GeoBox& box, PictureUse use) {
     const double middle_deg = (box.south_deg + box.north_deg) / 2;
     const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
     const double height_m =
-        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
+        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.west_deg});
     const auto& sizes = sizes_for(use);
     const double shape =
         std::clamp(height_m / std::max(width_m, 1.0), min_map_shape, sizes.max_map_shape);
@@ -105,7 +106,8 @@ ReportPicture ReportPictures::draw(ReportScene map, const PictureSize& size, boo
         MapPlan plan{std::move(map.scene), style, size};
         plan.set_background(std::move(map.background));
         plan.set_roads(std::move(lines));
-        auto bytes = encode_png(image_of(plan));
+        const auto image = image_of(plan);
+        auto bytes = use_ == PictureUse::screen ? encode_palette_png(image) : encode_png(image);
         map.background = std::move(plan).background();
         map.scene = std::move(plan).scene();
         return bytes;
