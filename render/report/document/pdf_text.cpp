@@ -17,7 +17,8 @@ namespace {
 // From fonts-noto-core, first those of scripts that other fonts have too; Pango substitutes
 // installed fonts for missing scripts.
 constexpr const char* families = "Noto Sans,Noto Sans Arabic,Noto Sans Hebrew,Noto Sans Armenian,"
-                                 "Noto Sans Georgian,Noto Sans Lao,Noto Sans CJK {},sans-serif";
+                                 "Noto Sans Georgian,Noto Sans Lao,{}Noto Sans Math,"
+                                 "Noto Sans Symbols2,sans-serif";
 constexpr float line_spacing = 1.12F; // relative to the font's own, which is 1.36 for Noto Sans
 
 struct FreeFont {
@@ -46,9 +47,10 @@ std::string cleaned(const std::string& text) {
     return clean;
 }
 
-/// Returns the font families for a text. Han characters take the shapes of the country whose
-/// letters are beside them, and by default those of China, as on maps.
-std::string families_for(const std::string& text) {
+/// Returns the font family of a text's Han characters with a comma; "" for a text without them.
+/// They take the shapes of the country whose letters are beside them, and by default those of
+/// China, as on maps.
+std::string cjk_family_for(const std::string& text) {
     const auto has = [&](std::initializer_list<GUnicodeScript> scripts) {
         for (const auto* c = text.c_str(); *c != '\0'; c = g_utf8_next_char(c)) {
             if (std::ranges::find(scripts, g_unichar_get_script(g_utf8_get_char(c))) !=
@@ -58,11 +60,20 @@ std::string families_for(const std::string& text) {
         }
         return false;
     };
-    const auto* const country = has({G_UNICODE_SCRIPT_HIRAGANA, G_UNICODE_SCRIPT_KATAKANA}) ? "JP"
-                                : has({G_UNICODE_SCRIPT_HANGUL})                            ? "KR"
-                                : has({G_UNICODE_SCRIPT_BOPOMOFO})                          ? "TC"
-                                                                                            : "SC";
-    return fmt::format(families, country);
+    if (has({G_UNICODE_SCRIPT_HIRAGANA, G_UNICODE_SCRIPT_KATAKANA})) {
+        return "Noto Sans CJK JP,";
+    }
+    if (has({G_UNICODE_SCRIPT_HANGUL})) {
+        return "Noto Sans CJK KR,";
+    }
+    if (has({G_UNICODE_SCRIPT_BOPOMOFO})) {
+        return "Noto Sans CJK TC,";
+    }
+    return has({G_UNICODE_SCRIPT_HAN}) ? "Noto Sans CJK SC," : "";
+}
+
+std::string families_for(const std::string& text) {
+    return fmt::format(families, cjk_family_for(text));
 }
 
 guint16 channel(std::uint32_t rgb, int shift) {
