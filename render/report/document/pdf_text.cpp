@@ -1,6 +1,7 @@
 #include "render/report/document/pdf_text.hpp"
 
 #include "estimator/common/utf8.hpp"
+#include "render/scene/unbroken_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -121,7 +122,7 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
             continue; // paper has room for the columns with this content
         }
         const auto from = text.size();
-        text += cleaned(span.text);
+        text += cleaned(with_unbroken_numbers(span.text));
         add_look(looks.get(), span, from, text.size());
         target_ = span.target.empty() ? target_ : span.target;
         address_ = span.address.empty() ? address_ : span.address;

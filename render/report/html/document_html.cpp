@@ -2,6 +2,7 @@
 #include "render/report/document/page_assets.hpp"
 #include "render/report/html/drawing_html.hpp"
 #include "render/report/report.hpp"
+#include "render/scene/unbroken_numbers.hpp"
 
 #include "estimator/common/utf8.hpp"
 
@@ -15,9 +16,19 @@ using namespace document;
 
 namespace {
 
+/// Tests whether a break may be added before a letter. Marks belong to the letter before them; the
+/// scripts from Hebrew on have marks, joined letters, or words without spaces, where pages break
+/// them by rules of their own.
+bool may_follow_break(char32_t letter) {
+    constexpr char32_t first_mark = 0x300, last_mark = 0x36F, hebrew = 0x590;
+    return letter < hebrew && !(first_mark <= letter && letter <= last_mark);
+}
+
 /// Escapes text and allows breaks only in words longer than a column; '\n' becomes a break.
-std::string breakable(std::string_view text) {
+std::string breakable(std::string_view of) {
     constexpr std::size_t longest_word = 24; // letters
+    const auto unbroken = with_unbroken_numbers(of);
+    std::string_view text{unbroken};
     std::string html, piece;
     std::size_t letters = 0;
     const auto flush = [&] {
@@ -34,7 +45,7 @@ std::string breakable(std::string_view text) {
             continue;
         }
         letters = text.front() == ' ' ? 0 : letters + 1;
-        if (letters > longest_word) {
+        if (letters > longest_word && may_follow_break(utf8_letter(text.substr(0, length)))) {
             flush();
             html += "<wbr>";
             letters = 1;
@@ -156,7 +167,7 @@ std::string block_html(const KeyNumbers& keys) {
     for (const auto& [what, value, more] : keys.numbers) {
         html += fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n",
                             escaped(what),
-                            escaped(value),
+                            escaped(with_unbroken_numbers(value)),
                             html_of(more));
     }
     return html + "</dl>\n";

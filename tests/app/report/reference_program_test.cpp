@@ -211,10 +211,10 @@ TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
     EXPECT_THAT(html, HasSubstr("<html lang=\"de\">"));
     for (const auto* words : {"<h1>Fahrzeuge und Referenzmessungen</h1>",
                               "Fahrzeuge neben Referenzen",
-                              "Stücke von 328 ft",
+                              "Stücke von 328\u00A0ft",
                               "01.05.2026",
                               "Referenz, in/mi",
-                              "63 – 127",
+                              "63\u00A0–\u00A0127",
                               "IRI der Fahrzeuge, in/mi",
                               "Im 90-%-Intervall"}) {
         EXPECT_THAT(html, HasSubstr(words));

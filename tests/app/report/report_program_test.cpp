@@ -113,9 +113,9 @@ TEST_F(ReportProgram, SaysTheMeanOfTheExportedSegments) {
         sum += metres * number(rows, i, "iri");
         poor_m += number(rows, i, "iri") > 170 / 63.36 ? metres : 0;
     }
-    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.2f} mm/m</b>", sum / length_m)));
-    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.2f} km</b>", length_m / 1000)));
-    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.1f} %</b>", 100 * poor_m / length_m)));
+    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.2f}\u00A0mm/m</b>", sum / length_m)));
+    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.2f}\u00A0km</b>", length_m / 1000)));
+    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.1f}\u00A0%</b>", 100 * poor_m / length_m)));
     EXPECT_THAT(html, HasSubstr("<h1>A &lt;road&gt;</h1>"));
     EXPECT_THAT(html, HasSubstr("<b>1 car</b>"));
 }

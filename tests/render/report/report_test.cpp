@@ -4,6 +4,7 @@
 #include "render/report/document/page_assets.hpp"
 #include "render/report/figures.hpp"
 #include "render/report/strip_chart.hpp"
+#include "render/scene/unbroken_numbers.hpp"
 #include "storage/files/sha256.hpp"
 #include "support/program/html_text.hpp"
 #include "support/roads/sample_report.hpp"
@@ -67,13 +68,39 @@ std::string flaw_in(const std::string& html) {
     return open.empty() ? "" : "<" + open.back() + "> stays open";
 }
 
+/// Returns the page of a report with plain spaces, of which some are no-break spaces.
+std::string page_of(const Report& report) {
+    return testing::with_plain_spaces(report_html(report));
+}
+
 TEST(Report, ClosesEveryElementThatItOpens) {
     EXPECT_EQ(flaw_in(report_html(town())), "");
     EXPECT_EQ(flaw_in(report_html(nothing_measured())), "");
 }
 
-TEST(Report, SaysTheNumbersItWasGiven) {
+TEST(Report, KeepsNumbersWithTheirUnits) {
     const auto html = report_html(town());
+    EXPECT_THAT(html, HasSubstr("<b>8.00\u00A0km</b>"));
+    EXPECT_THAT(html, HasSubstr("2.10\u00A0–\u00A02.90"));
+    EXPECT_THAT(html, HasSubstr("62\u00A0% of what was driven"));
+    EXPECT_THAT(html, HasSubstr("(140\u00A0m towards N"));
+    EXPECT_EQ(with_unbroken_numbers("4 min, 3 cars in 2 in"), "4 min, 3 cars in 2 in");
+    EXPECT_EQ(with_unbroken_numbers("5 mm – 6 mm"), "5\u00A0mm – 6\u00A0mm");
+    EXPECT_EQ(with_unbroken_numbers("12 "), "12 ");
+}
+
+TEST(Report, BreaksNoThaiSyllableNorMarkOffItsLetter) {
+    auto report = town();
+    const std::string name = "ถนนเฉลิมพระเกียรติกาญจนาภิเษกที่";
+    ASSERT_FALSE(report.worst.empty());
+    report.worst[0].stretch.name = name;
+    EXPECT_THAT(report_html(report), HasSubstr(name));
+    report.worst[0].stretch.name = "Aaaaaaaaaaaaaaaaaaaaaaae\u0301bbb";
+    EXPECT_THAT(report_html(report), HasSubstr("ae\u0301<wbr>bbb"));
+}
+
+TEST(Report, SaysTheNumbersItWasGiven) {
+    const auto html = page_of(town());
     EXPECT_THAT(html, HasSubstr("<b>8.00 km</b>"));
     EXPECT_THAT(html, HasSubstr("40.0 % of the network of 20.0 km"));
     EXPECT_THAT(html, HasSubstr("<b>2.50 mm/m</b>"));
@@ -87,7 +114,7 @@ TEST(Report, SaysTheNumbersItWasGiven) {
 }
 
 TEST(Report, HasATableRowForEachStretchThatLeadsToItsMap) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     for (const auto* id : {"stretch-1", "stretch-2"}) {
         EXPECT_THAT(html, HasSubstr(fmt::format("href=\"#{}\"", id)));
         EXPECT_THAT(html, HasSubstr(fmt::format("id=\"{}\"", id)));
@@ -95,7 +122,7 @@ TEST(Report, HasATableRowForEachStretchThatLeadsToItsMap) {
 }
 
 TEST(Report, AsksForNothingFromOutside) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     EXPECT_THAT(between(html, "<script>", "</script>"), ElementsAre(std::string{page_script()}));
     EXPECT_THAT(page_script(), Not(HasSubstr("://")));
     EXPECT_THAT(page_script(), Not(HasSubstr("fetch")));
@@ -125,7 +152,7 @@ TEST(Report, TakesNoNameForMarkup) {
     report.worst[0].seen = {hostile, hostile};
     report.vehicles[0].name = report.vehicles[0].model = report.vehicles[0].method = hostile;
     report.summary.kinds[0].kind = hostile;
-    const auto html = report_html(report);
+    const auto html = page_of(report);
     EXPECT_THAT(between(html, "<script", "</script>"), SizeIs(1)); // the page's own
     EXPECT_THAT(html, Not(HasSubstr("\xff")));
     EXPECT_THAT(html, HasSubstr("&quot;&gt;&lt;script&gt;alert(&#39;x&#39;)"));
@@ -133,7 +160,7 @@ TEST(Report, TakesNoNameForMarkup) {
 }
 
 TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     for (const auto& image : between(html, "<img ", ">")) {
         EXPECT_THAT(between(image, " alt=\"Map of ", "\""), SizeIs(1));
     }
@@ -152,7 +179,7 @@ TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
 
 TEST(Report, BeginsWithWhatMatters) {
     auto report = town();
-    const auto lead = [&] { return between(report_html(report), "<p class=\"lead\">", "</p>"); };
+    const auto lead = [&] { return between(page_of(report), "<p class=\"lead\">", "</p>"); };
     // 5 of 8 km are poor.
     EXPECT_THAT(lead(),
                 ElementsAre("62 % of what was driven is poor; begin with <b><a "
@@ -162,11 +189,11 @@ TEST(Report, BeginsWithWhatMatters) {
     EXPECT_THAT(lead(), ElementsAre(HasSubstr("62 % of what was driven is poor, in short")));
     report.summary.all = testing::summary_of(20000, {8000, 0, 0});
     EXPECT_THAT(lead(), ElementsAre("Nothing that was driven is poor."));
-    EXPECT_THAT(between(report_html(nothing_measured()), "class=\"lead\"", "</p>"), IsEmpty());
+    EXPECT_THAT(between(page_of(nothing_measured()), "class=\"lead\"", "</p>"), IsEmpty());
 }
 
 TEST(Report, ShowsMapAndDistributionTogetherBeforeItsSections) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     const auto overview = between(html, "<div class=\"overview\">", "</header>");
     ASSERT_THAT(overview, SizeIs(1));
     EXPECT_THAT(overview[0],
@@ -175,7 +202,7 @@ TEST(Report, ShowsMapAndDistributionTogetherBeforeItsSections) {
 }
 
 TEST(Report, ListsItsSectionsAsContents) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     const auto entries = between(between(html, "<nav", "</nav>").at(0), "href=\"#", "\"");
     EXPECT_THAT(entries, SizeIs(between(html, "<summary><h2>", "</h2>").size()));
     for (const auto& entry : entries) {
@@ -193,7 +220,7 @@ TEST(Report, LetsOnlyItsOwnScriptRun) {
     }
     EXPECT_EQ(base64(bytes), page_script_sha256) << "put this into page_assets.hpp";
     EXPECT_THAT(
-        report_html(town()),
+        page_of(town()),
         HasSubstr("default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src "
                   "'sha256-" +
                   std::string{page_script_sha256} + "'"));
@@ -231,8 +258,8 @@ TEST(StripChart, DrawsEachPieceAsHighAsItIsRoughWithItsInterval) {
     EXPECT_GT(columns[2].y, columns[1].y); // the other direction lies below
     EXPECT_THAT(labels, Contains("High Street"));
     EXPECT_THAT(labels, Contains("Control: A"));
-    EXPECT_THAT(report_html(report), HasSubstr("<h2>Strip chart</h2>"));
-    EXPECT_EQ(flaw_in(report_html(report)), "");
+    EXPECT_THAT(page_of(report), HasSubstr("<h2>Strip chart</h2>"));
+    EXPECT_EQ(flaw_in(page_of(report)), "");
 }
 
 TEST(StripChart, OfARoadWithoutLengthEnds) {
@@ -245,7 +272,7 @@ TEST(StripChart, OfARoadWithoutLengthEnds) {
 TEST(StripChart, OfARoadNeverMeasuredSaysSo) {
     auto report = town();
     report.strips = {{0, 100, {{"along", {}}}, {{40, "High Street"}}, {}}};
-    const auto html = report_html(report);
+    const auto html = page_of(report);
     EXPECT_THAT(html, HasSubstr("No measurement along this road."));
     EXPECT_THAT(html, Not(HasSubstr("Segments by chainage")));
     EXPECT_THAT(html, Not(HasSubstr("High Street")));
@@ -274,11 +301,11 @@ TEST(StripChart, NamesARoadWhoseLettersHaveManyBytesWhereThereIsRoom) {
 TEST(Report, SaysTheChainageInFeetInAmericanReports) {
     auto report = town();
     report.wording.unit = IriUnit::in_per_mi;
-    EXPECT_THAT(report_html(report), HasSubstr("OSM way 123456, chainage 328–787 ft<br>"));
+    EXPECT_THAT(page_of(report), HasSubstr("OSM way 123456, chainage 328–787 ft<br>"));
 }
 
 TEST(Report, OfNothingMeasuredSaysSo) {
-    const auto html = report_html(nothing_measured());
+    const auto html = page_of(nothing_measured());
     EXPECT_THAT(html, HasSubstr("No measurements yet."));
     EXPECT_THAT(html, HasSubstr("No trips imported yet."));
     EXPECT_THAT(html, HasSubstr("0 % of the network of 20.0 km"));
@@ -289,7 +316,7 @@ TEST(Report, OfNothingMeasuredSaysSo) {
 TEST(Report, BreaksNoNameButOneThatIsLongerThanAColumn) {
     auto report = town();
     report.worst = {stretch_named(std::string(50, 'X')), stretch_named("Rue de la République")};
-    const auto html = report_html(report);
+    const auto html = page_of(report);
     const std::string part(24, 'X');
     EXPECT_THAT(html, HasSubstr("<td>" + part + "<wbr>" + part + "<wbr>XX</td>"));
     EXPECT_THAT(html, HasSubstr("<td>Rue de la République</td>"));
@@ -298,34 +325,33 @@ TEST(Report, BreaksNoNameButOneThatIsLongerThanAColumn) {
 
 TEST(Report, HasAScaleThatGrowsWithItsMap) {
     // The longest round length within 30 % of 4 km is 1 km, a quarter of the width.
-    EXPECT_THAT(report_html(town()),
-                HasSubstr("<span style=\"width:25.00%\"></span>1 km, north up"));
+    EXPECT_THAT(page_of(town()), HasSubstr("<span style=\"width:25.00%\"></span>1 km, north up"));
 }
 
 TEST(Report, LetsOnlyLongTablesGoOverAPage) {
     auto report = town();
-    EXPECT_THAT(report_html(report), Not(HasSubstr("\"wide long\"")));
+    EXPECT_THAT(page_of(report), Not(HasSubstr("\"wide long\"")));
     report.vehicles.assign(20, report.vehicles[0]);
-    EXPECT_THAT(between(report_html(report), "<div class=\"", "\" role"), Contains("wide long"));
+    EXPECT_THAT(between(page_of(report), "<div class=\"", "\" role"), Contains("wide long"));
 }
 
 TEST(Report, SaysOnTheMapsOfStretchesWhatItsTableLeavesOutOnPhones) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     EXPECT_THAT(between(html, "<th scope=\"col\" class=\"n else\">", "</th>"),
-                ElementsAre("in/mi", "90\u00A0% interval", "Worst segment", "Passes", "Cars"));
+                ElementsAre("in/mi", "90 % interval", "Worst segment", "Passes", "Cars"));
     EXPECT_THAT(html,
                 HasSubstr("(3.74 – 5.38) over 140 m<span class=\"phone\">, at worst 7.89<br>2 – 5 "
                           "passes by 3 cars</span>"));
 }
 
 TEST(Report, NamesEachValueOfACarWherePhonesHaveNoRoomForItsTitles) {
-    EXPECT_THAT(report_html(town()),
+    EXPECT_THAT(page_of(town()),
                 AllOf(HasSubstr("<td data-t=\"Model used\">built-in suv</td>"),
                       HasSubstr("<td class=\"n\" data-t=\"Trips\">12</td>")));
 }
 
 TEST(Report, SetsOffTheSumsOfItsTables) {
-    const auto sums = between(report_html(town()), "<tr class=\"all\"><th scope=\"row\">", "<");
+    const auto sums = between(page_of(town()), "<tr class=\"all\"><th scope=\"row\">", "<");
     EXPECT_THAT(sums,
                 SizeIs(5)); // kinds of road twice, coverage, basis, reasons; of one car none
     EXPECT_THAT(sums, Each(std::string{"All"}));
@@ -333,15 +359,15 @@ TEST(Report, SetsOffTheSumsOfItsTables) {
 
 TEST(Report, DescribesTheMethodsThatWereUsedAndNoOthers) {
     auto report = town();
-    EXPECT_THAT(report_html(report),
+    EXPECT_THAT(page_of(report),
                 AllOf(HasSubstr("(kf) with a car model"), Not(HasSubstr("(smoother)"))));
     report.vehicles[0].method = "smoother";
-    EXPECT_THAT(report_html(report),
+    EXPECT_THAT(page_of(report),
                 AllOf(HasSubstr("The method (smoother) finds"), Not(HasSubstr("(kf)"))));
 }
 
 TEST(Report, SaysWhatItsValuesRestOn) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     EXPECT_THAT(html, HasSubstr("Both wheel tracks: MRI observed</th><td class=\"n\">100</td>"));
     EXPECT_THAT(html,
                 HasSubstr("Centre of the car: MRI estimated from HRI</th><td "
@@ -352,7 +378,7 @@ TEST(Report, SaysWhatItsValuesRestOn) {
 }
 
 TEST(Report, SaysWhyRowsEnteredNoEstimateTheMostFrequentReasonFirst) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     const auto frequent = html.find("Repeated position</th><td class=\"n\">70</td>");
     const auto rare = html.find("Too slow</th><td class=\"n\">20</td><td class=\"n\">2.0 %</td>");
     ASSERT_NE(frequent, std::string::npos);
@@ -364,9 +390,9 @@ TEST(Report, SaysWhyRowsEnteredNoEstimateTheMostFrequentReasonFirst) {
 TEST(Report, OfACrowdSaysHowManyCarsAnEventTakes) {
     auto report = town();
     report.events = {ReportEvent{}};
-    EXPECT_THAT(report_html(report), HasSubstr("at least two passes"));
+    EXPECT_THAT(page_of(report), HasSubstr("at least two passes"));
     report.publication = ReportPublication{.month = "2026-11"};
-    EXPECT_THAT(report_html(report),
+    EXPECT_THAT(page_of(report),
                 AllOf(HasSubstr("passes of at least five cars"), Not(HasSubstr("two passes"))));
 }
 
@@ -374,7 +400,7 @@ TEST(Report, OfGoodRoadsHasNoWorstStretch) {
     auto report = town();
     report.worst.clear();
     report.stretches = 0;
-    EXPECT_THAT(report_html(report),
+    EXPECT_THAT(page_of(report),
                 HasSubstr("No section of 100 m or more has a mean IRI above 2.68 mm/m."));
 }
 
@@ -384,7 +410,7 @@ TEST(Report, AddsUpTheCarsThatItDoesNotList) {
     for (std::size_t i = 0; i < report.vehicles.size(); ++i) {
         report.vehicles[i].name = fmt::format("{}", i / 2 + 1); // each car with two methods
     }
-    const auto html = report_html(report);
+    const auto html = page_of(report);
     EXPECT_THAT(html, HasSubstr("<b>50 cars</b>"));
     EXPECT_THAT(html, HasSubstr(">70 more rows</th>"));
     EXPECT_THAT(html, HasSubstr("1200 trips"));
@@ -477,7 +503,7 @@ std::vector<double> bars(const std::string& svg, const std::string& attribute) {
 }
 
 TEST(Histogram, DrawsBarsAsHighAsTheRoadIsLong) {
-    const auto html = report_html(town());
+    const auto html = page_of(town());
     const auto svg = between(html, "<svg class=\"histogram\"", "</svg>").at(0);
     const auto heights = bars(svg, "height");
     ASSERT_EQ(heights.size(), 4U); // 1000, 2000 with 500 on top, 4500 m
@@ -493,7 +519,7 @@ TEST(ShareBar, IsPartedAsTheRoadIs) {
     ASSERT_THAT(bar.shares, SizeIs(3));
     EXPECT_DOUBLE_EQ(bar.shares[1].percent, 25);
     EXPECT_DOUBLE_EQ(bar.shares[2].percent, 62.5);
-    EXPECT_THAT(report_html(town()), HasSubstr("x=\"37.50\" width=\"62.50\""));
+    EXPECT_THAT(page_of(town()), HasSubstr("x=\"37.50\" width=\"62.50\""));
     EXPECT_THAT(share_bar(town(), nothing_measured().summary.all).shares, IsEmpty());
 }
 

@@ -17,4 +17,13 @@ between(const std::string& text, std::string_view before, std::string_view after
     return found;
 }
 
+/// Returns a text with plain spaces in place of no-break spaces.
+inline std::string with_plain_spaces(std::string text) {
+    constexpr std::string_view no_break = "\u00A0";
+    for (auto at = text.find(no_break); at != std::string::npos; at = text.find(no_break, at)) {
+        text.replace(at, no_break.size(), " ");
+    }
+    return text;
+}
+
 } // namespace macadam::testing

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// Returns a text whose lines do not break between a number and its unit or percent sign, nor
+/// within an interval such as "1.87 – 2.43": their spaces become no-break spaces.
+std::string with_unbroken_numbers(std::string_view text);
+
+} // namespace macadam
