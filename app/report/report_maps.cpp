@@ -23,7 +23,7 @@ struct PictureSizes {
 // A4 have a map over their whole width, and sections over half of it.
 constexpr PictureSizes on_screen{1400, 192, 1.1, 480, 144, 0.75};
 constexpr PictureSizes on_paper{2125, 300, 0.65, 1010, 300, 0.54};
-constexpr double min_map_shape = 0.45; // height / width
+constexpr double min_map_shape = 0.3; // height / width
 
 constexpr double min_margin_m = 60;   // around a section: the next side streets
 constexpr double margin_share = 0.25; // share of its extent

@@ -43,8 +43,8 @@ std::string with_unbroken_numbers(std::string_view text) {
         const bool follows_number = text[i] == ' ' && i > 0 && is_digit(text[i - 1]);
         const auto rest = text.substr(i + 1);
         if (follows_number && begins_with_upper_end(rest)) {
-            unbroken.append(no_break).append(dash).append(no_break);
-            i += dash.size() + 1;
+            unbroken.append(no_break).append(dash); // a line may end after the dash
+            i += dash.size();
         } else if (follows_number && begins_with_unit(rest)) {
             unbroken += no_break;
         } else {

@@ -6,7 +6,7 @@
 namespace macadam {
 
 /// Returns a text whose lines do not break between a number and its unit or percent sign, nor
-/// within an interval such as "1.87 – 2.43": their spaces become no-break spaces.
+/// before the dash of an interval such as "1.87 – 2.43": these spaces become no-break spaces.
 std::string with_unbroken_numbers(std::string_view text);
 
 } // namespace macadam

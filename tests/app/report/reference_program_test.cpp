@@ -214,7 +214,7 @@ TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
                               "Stücke von 328\u00A0ft",
                               "01.05.2026",
                               "Referenz, in/mi",
-                              "63\u00A0–\u00A0127",
+                              "63\u00A0– 127",
                               "IRI der Fahrzeuge, in/mi",
                               "Im 90-%-Intervall"}) {
         EXPECT_THAT(html, HasSubstr(words));

@@ -81,7 +81,7 @@ TEST(Report, ClosesEveryElementThatItOpens) {
 TEST(Report, KeepsNumbersWithTheirUnits) {
     const auto html = report_html(town());
     EXPECT_THAT(html, HasSubstr("<b>8.00\u00A0km</b>"));
-    EXPECT_THAT(html, HasSubstr("2.10\u00A0–\u00A02.90"));
+    EXPECT_THAT(html, HasSubstr("2.10\u00A0– 2.90"));
     EXPECT_THAT(html, HasSubstr("62\u00A0% of what was driven"));
     EXPECT_THAT(html, HasSubstr("(140\u00A0m towards N"));
     EXPECT_EQ(with_unbroken_numbers("4 min, 3 cars in 2 in"), "4 min, 3 cars in 2 in");
