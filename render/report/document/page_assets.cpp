@@ -211,7 +211,7 @@ function csvOf(table) {
   const field = (text) => (/[",;\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
   const plain = (text) => {
     const bare = text.replace(/[\s\u202f\u00a0]/g, '').replace('\u2212', '-').replace(mark, '.');
-    return /^[+-]?\d+(\.\d+)?$/.test(bare) ? bare : text.replaceAll('\n', '; ');
+    return /^[+-]?\d+(\.\d+)?$/.test(bare) ? bare : text.replaceAll('\n', '; ').replaceAll('\u00a0', ' ');
   };
   return all('tr', table).map((row) => [...row.cells].map((cell) => {
     const text = plain(words(cell));

@@ -14,6 +14,6 @@ std::string_view page_script();
 
 /// Base64 of the script's SHA-256, by which the page's content security policy lets it run.
 inline constexpr std::string_view page_script_sha256 =
-    "qHEIq3BhvXBZXEidoH56HXWOZo4OUKrCrq8srXO29EE=";
+    "WwdWJ5QyaA1daiAVV2tD8QyvMJqvlH/tEp5NLxKicsA=";
 
 } // namespace macadam

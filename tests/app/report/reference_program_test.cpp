@@ -211,7 +211,7 @@ TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
     EXPECT_THAT(html, HasSubstr("<html lang=\"de\">"));
     for (const auto* words : {"<h1>Fahrzeuge und Referenzmessungen</h1>",
                               "Fahrzeuge neben Referenzen",
-                              "Stücke von 328\u00A0ft",
+                              "Stücke von 328 ft",
                               "01.05.2026",
                               "Referenz, in/mi",
                               "63\u00A0– 127",
