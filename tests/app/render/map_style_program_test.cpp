@@ -1,5 +1,6 @@
 // `macadam render --style` and its like as users run them.
 
+#include "support/program/html_text.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -151,16 +152,17 @@ TEST_F(MapStyleProgram, DrawsRoadsWithFewPassesInGrey) {
 }
 
 TEST_F(MapStyleProgram, ReportsWithTheClassesColoursAndWordsOfTheFile) {
-    const auto html = report({"--style",
-                              style("unit = \"mm/m\"\n"
-                                    "[[class]]\nname = \"glatt\"\nup_to = 1.1\n"
-                                    "[[class]]\nname = \"eben\"\nup_to = 2.2\n"
-                                    "[[class]]\nname = \"rauh\"\nup_to = 5.5\n"
-                                    "[[class]]\nname = \"kaputt\"\n"
-                                    "[ramp]\ncolours = [\"#2c7bb6\", \"#abd9e9\", \"#fdae61\", "
-                                    "\"#d7191c\"]\n"
-                                    "[legend]\ntitle = \"Ebenheit\"\nup_to = \"bis {}\"\n"
-                                    "above = \"über {}\"\nunmeasured = \"Nie gemessen\"\n")});
+    const auto html =
+        with_plain_spaces(report({"--style",
+                                  style("unit = \"mm/m\"\n"
+                                        "[[class]]\nname = \"glatt\"\nup_to = 1.1\n"
+                                        "[[class]]\nname = \"eben\"\nup_to = 2.2\n"
+                                        "[[class]]\nname = \"rauh\"\nup_to = 5.5\n"
+                                        "[[class]]\nname = \"kaputt\"\n"
+                                        "[ramp]\ncolours = [\"#2c7bb6\", \"#abd9e9\", \"#fdae61\", "
+                                        "\"#d7191c\"]\n"
+                                        "[legend]\ntitle = \"Ebenheit\"\nup_to = \"bis {}\"\n"
+                                        "above = \"über {}\"\nunmeasured = \"Nie gemessen\"\n")}));
     for (const auto* words : {"Glatt",
                               "Kaputt",
                               "bis 1.10",
