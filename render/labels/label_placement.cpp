@@ -362,9 +362,9 @@ std::vector<Label> placed_labels(std::span<const RoadName> roads,
         LabelSubject subject{.kind = LabelSubject::Kind::place,
                              .name = place.name,
                              .look = place.look,
-                             .line = setter.set(place.name, place.look)};
+                             .line = setter.set(place.name, place.look),
+                             .place = place};
         if (subject.line.whole && !subject.line.glyphs.empty()) {
-            subject.place = std::move(place);
             subjects.push_back(std::move(subject));
             tasks.push_back({&subjects.back()});
         }
