@@ -1,17 +1,16 @@
 import { distance_m, median } from './geometry.js';
+import { JumpFilter, fixError_m, fixesInRow, isReachable, placeOf } from './places.js';
 import { fixColumn, fixWidth, rowsOf } from './samples.js';
 
 // The rule that `macadam import` follows for cars of other people (docs/privacy.md): 300 m and a random 0 to
 // 200 m more are left out at both ends and on both sides of every stop, or silence, of more than five minutes.
-// Here the length counts by air alone: travel is never shorter.
+// Here the length counts by air alone: travel is never shorter. Places before and after a jump that stays are hidden, too:
+// one of them may be where the trip began.
 export const trimmed_m = 300;
 const random_m = 200;
 const longStop_ms = 300_000;
 const still_m = 50; // a receiver at rest wanders
 const samePlace_m = 5; // fixes that determine the place of an end
-const fixError_m = 10; // beside the accuracy that the receiver states
-const poor_m = 50; // a worse fix proves no distance
-const fixesAway = 3; // in a row: one jump counts for nothing
 const receiverLatency_ms = 3000; // at most: the car is further on than its fix says
 
 export const drawCount = 32;
@@ -30,25 +29,28 @@ export function fixTimes_ms(fixes) {
 
 function placesOf(fixes) {
   const times_ms = fixTimes_ms(fixes);
-  return [...rowsOf(fixes, fixWidth)]
-    .map((row, i) => ({
-      t_ms: times_ms[i],
-      lat: row[fixColumn.lat],
-      lon: row[fixColumn.lon],
-      accuracy_m: row[fixColumn.accuracy],
-    }))
-    .filter((place) => place.accuracy_m <= poor_m && (place.lat !== 0 || place.lon !== 0))
-    .sort((a, b) => a.t_ms - b.t_ms);
+  const places = [...rowsOf(fixes, fixWidth)].map((row, i) => placeOf(row, times_ms[i])).sort((a, b) => a.t_ms - b.t_ms);
+  const filter = new JumpFilter();
+  return places.flatMap((place) => filter.add(place));
+}
+
+// Index past the fixes that stay at the place of fix `anchor`.
+function endOfStay(places, anchor) {
+  let away = 0;
+  for (let i = anchor + 1; i < places.length; ++i) {
+    away = distance_m(places[anchor], places[i]) < still_m ? 0 : away + 1;
+    if (away === fixesInRow) {
+      return i - (fixesInRow - 1);
+    }
+  }
+  return places.length - away;
 }
 
 // Ranges [first, last] of fixes during long stops; the first and the last fix of the trip are such places too.
 function hiddenRanges(places) {
   const ranges = [[0, 0]];
   for (let anchor = 0; anchor < places.length; ) {
-    let past = anchor + 1;
-    while (past < places.length && distance_m(places[anchor], places[past]) < still_m) {
-      ++past;
-    }
+    const past = endOfStay(places, anchor);
     if (places[past - 1].t_ms - places[anchor].t_ms > longStop_ms) {
       ranges.push([anchor, past - 1]);
       anchor = past;
@@ -57,7 +59,7 @@ function hiddenRanges(places) {
     }
   }
   for (let i = 1; i < places.length; ++i) {
-    if (places[i].t_ms - places[i - 1].t_ms > longStop_ms) {
+    if (places[i].t_ms - places[i - 1].t_ms > longStop_ms || !isReachable(places[i - 1], places[i])) {
       ranges.push([i - 1, i]);
     }
   }
@@ -80,8 +82,8 @@ function firstAway(places, from, step, length_m) {
   for (let i = from; i >= 0 && i < places.length; i += step) {
     const isAway = distance_m(hidden, places[i]) >= length_m + fixError_m + places[i].accuracy_m;
     inRow = isAway ? inRow + 1 : 0;
-    if (inRow === fixesAway) {
-      return i - step * (fixesAway - 1);
+    if (inRow === fixesInRow) {
+      return i - step * (fixesInRow - 1);
     }
   }
   return null;

@@ -1,5 +1,5 @@
 import { fixTimes_ms, keptTimes, trimmed_m } from './trimming.js';
-import { distance_m } from './geometry.js';
+import { Odometer } from './odometer.js';
 import { fixColumn, fixWidth, motionWidth, rowsOf } from './samples.js';
 
 // Writes the format 'macadam-trip 1' (docs/reference/trip-logs.md).
@@ -50,14 +50,11 @@ function fixRows(fixes, isKept) {
 }
 
 function length_m(rows) {
-  let sum_m = 0;
-  for (let i = 1; i < rows.length; ++i) {
-    const [a, b] = [rows[i - 1], rows[i]];
-    if (b.t_us - a.t_us < 10e6) {
-      sum_m += distance_m({ lat: a.cells[0], lon: a.cells[1] }, { lat: b.cells[0], lon: b.cells[1] });
-    }
+  const odometer = new Odometer();
+  for (const { t_us, cells: [lat, lon, , accuracy_m] } of rows) {
+    odometer.add({ t_ms: t_us / 1000, lat, lon, accuracy_m });
   }
-  return sum_m;
+  return odometer.length_m;
 }
 
 function headerLines(meta, t0_ms, withGravity) {

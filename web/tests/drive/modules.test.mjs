@@ -4,9 +4,11 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 
 import { carBodies, parseCar } from '../../src/drive/car.js';
+import { Odometer } from '../../src/drive/odometer.js';
+import { placeOf } from '../../src/drive/places.js';
 import { QualityWatch } from '../../src/drive/quality.js';
 import { Recording, joined } from '../../src/drive/recording.js';
-import { motionRow, upBy } from '../../src/drive/samples.js';
+import { motionRow, rowsOf, upBy } from '../../src/drive/samples.js';
 import { fixTimes_ms, keptTimes } from '../../src/drive/trimming.js';
 import { tripLog } from '../../src/drive/trip_log.js';
 import { sendTrip } from '../../src/drive/upload.js';
@@ -67,6 +69,40 @@ test('a stop at a light stays, and so does a silence under five minutes', () => 
 
 test('a silence of more than five minutes counts as a stop', () => {
   assert.equal(keptTimes(drive([150, east(0)], [310, null], [150, east(3000)]), half).length, 2);
+});
+
+test('a receiver that jumps does not hide a stop', () => {
+  const jumping = (s) => ({ x: 1500, y: s % 100 === 50 ? 60 : 0 }); // a car could have gone there and back
+  assert.equal(keptTimes(drive([150, east(0)], [310, jumping], [150, east(1500)]), half).length, 2);
+});
+
+test('a trip that begins with the place of yesterday shows nothing of today\u2019s', () => {
+  const stale = drive([1, stand(-9000)], [199, east(0)]);
+  assert.deepEqual(seconds(keptTimes(stale, half)), [[43, 199 - 42 - 3]]); // 400 m from x = 0, as after any begin
+});
+
+const lengthOf = (fixes) => {
+  const odometer = new Odometer();
+  for (const row of rowsOf(fixes, 9)) {
+    odometer.add(placeOf(row, row[0]));
+  }
+  return odometer.length_m;
+};
+
+test('jumps of the receiver are no distance', () => {
+  const until = 1990 - 11; // a step of 10 m may be left
+  const near = (length_m) => assert.ok(length_m > until && length_m < 2001, `${length_m}`);
+  near(lengthOf(drive([200, east(0)])));
+  for (const jump of [1, 2]) { // fixes in a row
+    near(lengthOf(drive([100, east(0)], [jump, stand(5000)], [100 - jump, east(1000 + speed_mps * jump)])));
+  }
+  near(lengthOf(drive([5, stand(-9000)], [200, east(0)])));
+  assert.equal(lengthOf(drive([100, (s) => ({ x: 3 * Math.cos(s), y: 3 * Math.sin(s) })])), 0); // parked
+});
+
+test('a tunnel is distance, a silence in which the log is cut is none', () => {
+  assert.ok(lengthOf(drive([50, east(0)], [100, null], [50, east(1500)])) > 1990 - 11);
+  assert.ok(lengthOf(drive([50, east(0)], [310, null], [50, east(3600)])) < 2 * 490 + 1);
 });
 
 test('of a short trip, and of one without a good position, nothing is kept', () => {
