@@ -47,11 +47,10 @@ function styleOf(site) {
       picked: { type: 'geojson', data: none },
       pointed: { type: 'geojson', data: none },
     },
-    layers: [
-      { id: 'ground', type: 'background', paint: { 'background-color': css('--ground') } },
+    layers: [ // on the ground of the style sheet, which need not be drawn
       ...ground.below,
-      { id: 'pointed', type: 'line', source: 'pointed', layout: { ...cap, 'line-cap': 'round' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 12), 'line-opacity': 0.55 } },
-      { id: 'picked', type: 'line', source: 'picked', layout: { ...cap, 'line-cap': 'round' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 9) } },
+      { id: 'pointed', type: 'line', source: 'pointed', layout: { ...cap, 'line-cap': 'round', visibility: 'none' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 12), 'line-opacity': 0.55 } },
+      { id: 'picked', type: 'line', source: 'picked', layout: { ...cap, 'line-cap': 'round', visibility: 'none' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 9) } },
       { ...roads, id: 'casing', layout: cap, paint: { ...placed, 'line-color': css('--casing'), 'line-width': width(1, 1.6) } },
       { ...roads, id: 'roads', layout: cap, paint: { ...placed, 'line-color': colour(site), 'line-width': width(1, 0) } },
       { ...roads, id: 'roads-wide', layout: cap, paint: { ...placed, 'line-color': colour(site), 'line-width': width(1, 0), 'line-dasharray': [1.2, 0.8] } },
@@ -71,7 +70,7 @@ function paint(map, site, month) {
   map.setFilter('roads', ['all', filter, ['!', wide]]);
   map.setFilter('roads-wide', ['all', filter, wide]);
   for (const id of roadLayers) map.setPaintProperty(id, 'line-color', colour(site, month));
-  for (const [id, property, name] of [['ground', 'background-color', '--ground'], ['casing', 'line-color', '--casing'], ['picked', 'line-color', '--focus'],
+  for (const [id, property, name] of [['casing', 'line-color', '--casing'], ['picked', 'line-color', '--focus'],
     ['pointed', 'line-color', '--focus'], ['names', 'text-color', '--ink'], ['names', 'text-halo-color', '--ground']]) {
     map.setPaintProperty(id, property, css(name));
   }
@@ -113,6 +112,11 @@ function pick(map, point, by) {
   return [...nearest.values()].sort((a, b) => a.metres - b.metres).map(({ properties }) => properties);
 }
 
+// A map that is seen from straight above has no sky, which the library would draw over all of the picture all the same.
+function withoutSky(map) {
+  map.on('style.load', () => { map.style.sky.getEvaluated = () => undefined; });
+}
+
 // The libraries come after the first picture.
 export async function openMap(container, data, covered, tell) {
   const [maplibre, { Protocol }] = await Promise.all([import('maplibre-gl'), import('pmtiles')]);
@@ -124,6 +128,7 @@ export async function openMap(container, data, covered, tell) {
     container, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
     ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: roomy(site.bounds), fitBoundsOptions: { padding: padding(firstPadding) } }),
   });
+  withoutSky(map);
   map.touchZoomRotate.disableRotation();
   map.addControl(new maplibre.NavigationControl({ showCompass: false }), 'top-right');
   map.addControl(new maplibre.ScaleControl({ unit: state.unit === 'in/mi' ? 'imperial' : 'metric' }), 'bottom-left');
@@ -158,6 +163,7 @@ export async function openMap(container, data, covered, tell) {
   // The later month on a map of its own, which follows this one.
   function openAfter(place) {
     const after = new maplibre.Map({ container: place, style: styleOf(site), attributionControl: false, interactive: false, maxPitch: 0, fadeDuration: 0, center: map.getCenter(), zoom: map.getZoom() });
+    withoutSky(after);
     const follow = () => after.jumpTo({ center: map.getCenter(), zoom: map.getZoom() });
     const compareToo = () => compareMonths(after, data, () => {});
     map.on('move', follow);
@@ -184,7 +190,10 @@ export async function openMap(container, data, covered, tell) {
   }
   const ends = [];
   const mark = (source) => (lines) => {
-    const set = () => map.getSource(source).setData({ type: 'FeatureCollection', features: lines.map(lineOf) });
+    const set = () => {
+      map.getSource(source).setData({ type: 'FeatureCollection', features: lines.map(lineOf) });
+      map.setLayoutProperty(source, 'visibility', lines.length > 0 ? 'visible' : 'none'); // a layer costs its masks, also an empty one
+    };
     if (loaded) set(); else map.once('load', set);
   };
 

@@ -165,6 +165,9 @@ describe('the page', { timeout: 600_000 }, () => {
       return place.height > 0 && place.top >= sheet.top && place.bottom <= sheet.bottom;
     }, selector);
     assert.equal(await sees('.peek'), true);
+    await page.setViewportSize({ width: 640, height: 400 }); // a window of 1280 x 800 at 200 %
+    assert.equal(await sees('.peek'), true);
+    await page.setViewportSize({ width: 320, height: 640 });
     assert.deepEqual(await breaches(), []);
     await page.locator('.handle').focus();
     await page.keyboard.press('Tab');

@@ -441,7 +441,7 @@ describe('the recorder in the browser', () => {
     const { context, page } = await phone();
     await getReady(page);
     await start(page);
-    const told = page.getByText('no longer gives leave to read its position');
+    const told = page.getByText('does not give leave to read its position');
     const [, fix] = eventsOf(shortDrive).filter(([, kind]) => kind === 1);
     await page.evaluate(() => globalThis.played.error({ code: 1 }));
     await told.waitFor();
