@@ -260,13 +260,19 @@ void set_details(const StoreReader& store,
                  const DetailRoom& room,
                  MapScene& scene) {
     std::vector<MeasuredLength> measured;
-    store.visit(filter, [&](const SegmentRecord& record) {
+    const auto add = [&](const SegmentRecord& record) {
         const auto& segment = record.segment;
         if (!segment.line.empty()) {
             measured.push_back(
                 {segment.line[segment.line.size() / 2], segment.to_m - segment.from_m});
         }
-    });
+    };
+    store.visit(filter, add);
+    if (measured.empty()) { // a network without trips: where most roads are
+        auto all = filter;
+        all.with_state_only = false;
+        store.visit(all, add);
+    }
     for (const auto& area : densest_areas(measured, scene.box, room)) {
         scene.insets.push_back({.box = area,
                                 .name = place_in(store, area),

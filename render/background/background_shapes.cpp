@@ -97,11 +97,6 @@ outlines_of(BackgroundKind kind, const std::vector<Path>& lines, const Backgroun
 
 } // namespace
 
-double scale_denominator(double unit_m) {
-    constexpr double unit_of_a4_m = 0.21 / 1000;
-    return unit_m / unit_of_a4_m;
-}
-
 std::vector<BackgroundShape> background_shapes(std::span<const BackgroundTile> tiles,
                                                const MapFrame& frame,
                                                const PixelBox& room,

@@ -23,10 +23,6 @@ struct BackgroundLook {
     double denominator; ///< scale of the map, 1:N
 };
 
-/// Returns the scale 1:N of a picture of which a thousandth of the shorter side measures
-/// `unit_m` metres on the ground, as on a sheet of A4.
-double scale_denominator(double unit_m);
-
 /// Projects the pieces of tiles that lie on `room`, sorted by kind from the lowest layer.
 ///
 /// \param middle_deg  longitude around which a map across the antimeridian lies

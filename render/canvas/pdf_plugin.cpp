@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "render/canvas/pdf_rotated_text.hpp"
+#include "render/text/pdf_families.hpp"
 
 #include <cairo-pdf.h>
 #include <fmt/core.h>
@@ -16,7 +17,6 @@ namespace macadam {
 namespace {
 
 constexpr double pt_per_inch = 72;
-constexpr const char* family = "Noto Sans"; // as in pictures
 
 struct Release {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -239,14 +239,14 @@ private:
     }
 
     void set(const std::string& utf8, const TextLook& look) {
+        const std::unique_ptr<char, void (*)(void*)> valid{
+            g_utf8_make_valid(utf8.data(), gssize(utf8.size())), g_free};
         const Owned<PangoFontDescription> font{pango_font_description_new()};
-        pango_font_description_set_family_static(font.get(), family);
+        pango_font_description_set_family(font.get(), pdf_families_for(valid.get()).c_str());
         pango_font_description_set_weight(font.get(),
                                           look.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
         pango_font_description_set_absolute_size(font.get(), look.size_px * PANGO_SCALE);
         pango_layout_set_font_description(layout_.get(), font.get());
-        const std::unique_ptr<char, void (*)(void*)> valid{
-            g_utf8_make_valid(utf8.data(), gssize(utf8.size())), g_free};
         pango_layout_set_text(layout_.get(), valid.get(), -1);
     }
 

@@ -41,6 +41,8 @@ const PictureSize& checked(const PictureSize& size) {
     return size;
 }
 
+constexpr double much_empty = 0.25; // of the sheet: something shall fill it
+
 double middle_px(const Layout& layout) {
     return (layout.map.top + layout.map.bottom) / 2;
 }
@@ -120,9 +122,8 @@ void MapPlan::plan_details() {
 }
 
 std::optional<DetailRoom> MapPlan::detail_room() {
-    constexpr double much = 1.0 / 3;
     if (!scene_.insets.empty() || scene_.to_the_edge || scene_.scale_denominator > 0 ||
-        empty_share() < much) {
+        empty_share() < much_empty) {
         return {};
     }
     const auto parts = detail_layout(scene_, style_, layout_, 0, setter_);
@@ -204,7 +205,7 @@ void MapPlan::place_legend(const Legend& legend) {
         placement_.corner = {legend_room_->left, legend_room_->top};
         return;
     }
-    if (legend.entries.empty() || !placement_.makes_map_smaller) {
+    if (legend.entries.empty() || (!placement_.makes_map_smaller && empty_share() < much_empty)) {
         return;
     }
     auto band =

@@ -45,9 +45,9 @@ public:
     GeoBox ground() const;
 
     /// Sets the roads and the events on them; roads too minor for the map's scale are left out. The
-    /// legend takes a band of the sheet that would be empty, unless a background is set, or a
-    /// corner without roads; if there is neither, the map makes room for it and needs the roads of
-    /// a larger ground.
+    /// legend takes a corner without roads, or a band of a sheet of which a quarter would be empty,
+    /// unless a background is set; if there is neither, the map makes room for it and needs the
+    /// roads of a larger ground.
     void set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events = {});
 
     /// Returns the level of the background that serves the map's scale.
@@ -63,7 +63,7 @@ public:
     /// far-off parts.
     MapPlan* locator() { return insets_.size() > scene_.insets.size() ? &insets_.back() : nullptr; }
 
-    /// Returns the details that would fill a sheet of which a third or more is empty.
+    /// Returns the details that would fill a sheet of which a quarter or more is empty.
     /// `std::nullopt` if it is not, or if the data leaves too little room for them.
     std::optional<DetailRoom> detail_room();
 

@@ -1,21 +1,17 @@
 #include "render/roads/line_widths.hpp"
 
+#include "mapping/style/road_widths.hpp"
 #include "render/scene/scene.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <unordered_set>
 
 namespace macadam {
 namespace {
 
-// Size of a pixel at zoom 0 of web maps with tiles of 256 px: the equator of WGS 84 / 256.
-constexpr double metres_per_px_at_zoom_0 = 2 * std::numbers::pi * 6378137.0 / 256;
-constexpr double zoom_base = 1.5;
-constexpr double separate_zoom = 13;
 constexpr double max_ink = 0.5; // share of the ground near roads
 constexpr double ink_to_separate = 0.6;
 constexpr double min_core_px = 1.3; // a thinner line is mostly casing
@@ -25,11 +21,6 @@ constexpr double uncertain_part = 0.55;  // relative width of uncertain lines
 constexpr double unmeasured_core = 0.75; // relative width, less prominent
 constexpr double cell_px = 64;           // neighbourhood size, in a picture of 1000 px
 
-double grown_width_px(double zoom) {
-    const double share = (std::pow(zoom_base, zoom - 10) - 1) / (std::pow(zoom_base, 6) - 1);
-    return std::clamp(1 + 5 * share, 1.0, 9.0);
-}
-
 bool inside(const PixelBox& box, const PixelPoint& point) {
     return box.left <= point.x && point.x <= box.right && box.top <= point.y &&
            point.y <= box.bottom;
@@ -38,18 +29,17 @@ bool inside(const PixelBox& box, const PixelPoint& point) {
 } // namespace
 
 LineWidths line_widths(double metres_per_px, double unit) {
-    const double zoom = std::log2(metres_per_px_at_zoom_0 / (metres_per_px * unit));
-    const double core_px = grown_width_px(zoom);
-    return {.core_px = std::max(min_core_px, core_px * unit),
-            .casing_px = std::clamp(0.3 + 0.22 * core_px, 0.5, 1.6) * unit,
-            .separate_ways = zoom >= separate_zoom};
+    auto widths = tile_widths(zoom_of_metres_per_px(metres_per_px * unit));
+    widths.core_px = std::max(min_core_px, widths.core_px * unit);
+    widths.casing_px *= unit;
+    return widths;
 }
 
 LineWidths tile_widths(double zoom) {
-    const double core_px = grown_width_px(zoom);
+    const double core_px = road_width_px(zoom);
     return {.core_px = core_px,
-            .casing_px = std::clamp(0.3 + 0.22 * core_px, 0.5, 1.6),
-            .separate_ways = zoom >= separate_zoom};
+            .casing_px = road_casing_px(core_px),
+            .separate_ways = zoom >= RoadWidths::separate_zoom};
 }
 
 double rank_factor(int rank) {

@@ -13,10 +13,9 @@ struct LineWidths {
     bool separate_ways = false; ///< both directions of a road fit side by side
 };
 
-/// Returns the widths by scale: 1 px at zoom 10 to 6 px at zoom 16 and on to 9, growing by half per
-/// zoom, in a picture of 1000 px; in others in proportion.
+/// Returns the widths by the scale of a map, by the rule of RoadWidths.
 ///
-/// \param unit  size of the picture, in thousands of pixels of its shorter side
+/// \param unit  size of a pixel of that rule: 1/96 inch on paper, px
 LineWidths line_widths(double metres_per_px, double unit);
 
 /// Returns the widths for tiles, by zoom alone, so that adjacent tiles match.

@@ -1,3 +1,4 @@
+#include "mapping/style/road_widths.hpp"
 #include "storage/styles/class_limits.hpp"
 #include "storage/styles/road_style.hpp"
 #include "storage/text/xml_escape.hpp"
@@ -5,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -15,11 +17,38 @@ constexpr double roughest_mm_per_m = 1000;     // above any IRI
 constexpr const char* casing_rgb = "38,38,38"; // outlines pale classes on a light map
 constexpr double core_mm = 0.7;                // in the legend, and where no scale is known
 constexpr double casing_mm = 1.1;
-constexpr double casing_factor = casing_mm / core_mm;
 
-/// Width of a line in mm by the scale of the map, as in pictures of this program: 1 px (of 0.26 mm)
-/// at zoom 10, 1:546,000, 6 px at zoom 16, at most 9.
-constexpr const char* core_width = "0.26 * max(1, min(9, (546000 / @map_scale) ^ 0.43))";
+using Rule = RoadWidths;
+
+/// Widths of lines in mm by the scale of the map, as in pictures of this program.
+std::string core_width() {
+    return fmt::format(
+        "{:.4g} * max({}, min({}, {:.4f} + {:.4f} * ({:.0f} / @map_scale) ^ {:.4f}))",
+        Rule::px_mm,
+        Rule::min_px,
+        Rule::max_px,
+        Rule::constant_px,
+        Rule::growing_px,
+        denominator_of_zoom(Rule::first_zoom),
+        std::log2(Rule::growth_per_zoom));
+}
+
+std::string casing_width() {
+    return fmt::format("max({:.4g}, min({:.4g}, {:.4g} + {} * {}))",
+                       Rule::min_casing_px * Rule::px_mm,
+                       Rule::max_casing_px * Rule::px_mm,
+                       Rule::casing_px * Rule::px_mm,
+                       Rule::casing_share,
+                       core_width());
+}
+
+/// Each direction lies to the right of the centre line at the scales at which there is room.
+std::string offset() {
+    return fmt::format("if(@map_scale <= {:.0f}, ({} + {}) / 2, 0)",
+                       denominator_of_zoom(Rule::separate_zoom),
+                       core_width(),
+                       casing_width());
+}
 
 std::string
 option(std::string_view name, std::string_view value, std::string_view type = "QString") {
@@ -30,23 +59,21 @@ std::string by_expression(std::string_view property, const std::string& expressi
     return fmt::format(R"(<Option type="Map" name="{}">{}{}{}</Option>)",
                        property,
                        option("active", "true", "bool"),
-                       option("expression", expression),
+                       option("expression", xml_text(expression)),
                        option("type", "3", "int"));
 }
 
-std::string line_layer(int pass, std::string_view rgb, double width_mm, double factor) {
-    const auto width = fmt::format("{:.3g} * {}", factor, core_width);
-    const auto side = fmt::format("{:.3g} * {}", casing_factor / 2, core_width); // to the right
+std::string line_layer(int pass, std::string_view rgb, double width_mm, const std::string& width) {
     return fmt::format(
                R"(<layer class="SimpleLine" enabled="1" locked="0" pass="{}"><Option type="Map">)",
                pass) +
            option("line_color", fmt::format("{},255", rgb)) + option("line_style", "solid") +
            option("line_width", fmt::format("{}", width_mm)) + option("line_width_unit", "MM") +
-           option("offset", fmt::format("{}", casing_mm / 2)) + option("offset_unit", "MM") +
-           option("capstyle", "flat") + option("joinstyle", "round") +
+           option("offset", fmt::format("{}", (core_mm + casing_mm) / 4)) +
+           option("offset_unit", "MM") + option("capstyle", "flat") + option("joinstyle", "round") +
            R"(</Option><data_defined_properties><Option type="Map">)" + option("name", "") +
            R"(<Option type="Map" name="properties">)" + by_expression("outlineWidth", width) +
-           by_expression("offset", side) + "</Option>" + option("type", "collection") +
+           by_expression("offset", offset()) + "</Option>" + option("type", "collection") +
            "</Option></data_defined_properties></layer>";
 }
 
@@ -55,8 +82,8 @@ std::string symbol(const RoadStyle& style, std::size_t index) {
         R"(<symbol type="line" name="{}" alpha="1" force_rhr="0" clip_to_extent="1">)"
         "{}{}</symbol>\n",
         index,
-        line_layer(0, casing_rgb, casing_mm, casing_factor),
-        line_layer(1, class_colour_numbers(style.classes, index), core_mm, 1));
+        line_layer(0, casing_rgb, casing_mm, core_width() + " + 2 * " + casing_width()),
+        line_layer(1, class_colour_numbers(style.classes, index), core_mm, core_width()));
 }
 
 std::string renderer(const RoadStyle& style) {

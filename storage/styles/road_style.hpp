@@ -35,7 +35,7 @@ std::string qgis_layer_elements(const RoadStyle& style);
 std::string qml_style(const RoadStyle& style);
 
 /// Styled Layer Descriptor 1.1.0 (OGC 05-078r4, symbology of 05-077r4) of the same classes and
-/// colours, with widths for four ranges of scale.
+/// colours, with widths for each zoom of web maps.
 ///
 /// \param layer  name of the layer
 std::string sld_style(const RoadStyle& style, std::string_view layer);

@@ -1,3 +1,4 @@
+#include "mapping/style/road_widths.hpp"
 #include "storage/styles/class_limits.hpp"
 #include "storage/styles/road_style.hpp"
 #include "storage/text/xml_escape.hpp"
@@ -10,27 +11,28 @@
 namespace macadam {
 namespace {
 
-/// Width of the lines from one scale to the next; scales are 1:N of pixels of 0.28 mm.
-struct WidthAtScale {
-    int from_n; ///< 0: no limit
-    int to_n;   ///< 0: no limit
-    double px;
-};
-constexpr std::array widths{WidthAtScale{0, 17'000, 6},
-                            WidthAtScale{17'000, 70'000, 4},
-                            WidthAtScale{70'000, 270'000, 2.5},
-                            WidthAtScale{270'000, 0, 1.2}};
-constexpr double casing_px = 1.5; // both sides together
+constexpr double px_mm = 0.28; // 05-077r4, 10.2
+constexpr std::array zooms{10, 11, 12, 13, 14, 15, 16, 17};
 
-std::string scales(const WidthAtScale& width) {
-    std::string text;
-    if (width.from_n > 0) {
-        text += fmt::format("<se:MinScaleDenominator>{}</se:MinScaleDenominator>", width.from_n);
+/// Widths of the lines around a zoom.
+struct WidthAtZoom {
+    std::string scales; ///< from half a zoom before to half a zoom after
+    double core_px, casing_px;
+};
+
+WidthAtZoom width_at(int zoom) {
+    const auto limit = [](const char* name, double at) {
+        return fmt::format("<se:{0}>{1:.0f}</se:{0}>", name, denominator_of_zoom(at, px_mm));
+    };
+    std::string scales;
+    if (zoom < zooms.back()) {
+        scales += limit("MinScaleDenominator", zoom + 0.5);
     }
-    if (width.to_n > 0) {
-        text += fmt::format("<se:MaxScaleDenominator>{}</se:MaxScaleDenominator>", width.to_n);
+    if (zoom > zooms.front()) {
+        scales += limit("MaxScaleDenominator", zoom - 0.5);
     }
-    return text;
+    const double core_px = road_width_px(zoom);
+    return {scales, core_px, road_casing_px(core_px)};
 }
 
 std::string comparison(const RoadStyle& style, const char* name, double limit) {
@@ -63,33 +65,34 @@ std::string line(const std::string& colour, double width_px, double offset_px) {
     return fmt::format(
         R"(<se:LineSymbolizer uom="http://www.opengeospatial.org/se/units/pixel"><se:Stroke>)"
         R"(<se:SvgParameter name="stroke">{}</se:SvgParameter>)"
-        R"(<se:SvgParameter name="stroke-width">{:g}</se:SvgParameter>)"
+        R"(<se:SvgParameter name="stroke-width">{:.2f}</se:SvgParameter>)"
         R"(<se:SvgParameter name="stroke-linejoin">round</se:SvgParameter>)"
         R"(<se:SvgParameter name="stroke-linecap">butt</se:SvgParameter></se:Stroke>)"
-        "<se:PerpendicularOffset>{:g}</se:PerpendicularOffset></se:LineSymbolizer>",
+        "<se:PerpendicularOffset>{:.2f}</se:PerpendicularOffset></se:LineSymbolizer>",
         colour,
         width_px,
         offset_px);
 }
 
-std::string rule(const RoadStyle& style, std::size_t index, const WidthAtScale& width) {
+std::string rule(const RoadStyle& style, std::size_t index, const WidthAtZoom& width) {
     // Negative: to the right (05-077r4, 11.1.3). QGIS 3.22 takes it for the left, and reads the
     // .qml.
-    const double offset_px = -(width.px + casing_px) / 2;
+    const double offset_px = -(width.core_px + width.casing_px) / 2;
     return fmt::format("<se:Rule><se:Name>{0}</se:Name><se:Description><se:Title>{0}</se:Title>"
                        "</se:Description>{1}{2}{3}{4}</se:Rule>\n",
                        xml_text(class_label(style, index)),
                        filter(style, index),
-                       scales(width),
-                       line("#262626", width.px + casing_px, offset_px),
-                       line(class_colour_hex(style.classes, index), width.px, offset_px));
+                       width.scales,
+                       line("#262626", width.core_px + 2 * width.casing_px, offset_px),
+                       line(class_colour_hex(style.classes, index), width.core_px, offset_px));
 }
 
 } // namespace
 
 std::string sld_style(const RoadStyle& style, std::string_view layer) {
     std::string rules;
-    for (const auto& width : widths) {
+    for (const int zoom : zooms) {
+        const auto width = width_at(zoom);
         for (std::size_t i = 0; i < style.classes.classes.size(); ++i) {
             rules += rule(style, i, width);
         }

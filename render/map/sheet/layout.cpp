@@ -1,5 +1,7 @@
 #include "render/map/sheet/layout.hpp"
 
+#include "render/scene/unbroken_numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,8 @@ struct Block {
 /// Sets a block of text. Text too long for two lines is set smaller, then in more lines; only text
 /// that would take the map's own area is omitted, with an indication.
 Block block(
-    TypeSetter& setter, const std::string& text, TextLook look, double width, double height) {
+    TypeSetter& setter, const std::string& words, TextLook look, double width, double height) {
+    const auto text = with_unbroken_numbers(words);
     const double smallest_px = look.size_px * 0.7;
     auto lines = setter.wrapped(text, look, width);
     while (lines.size() > 1 && look.size_px * 0.92 >= smallest_px) {

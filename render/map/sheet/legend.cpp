@@ -1,6 +1,7 @@
 #include "render/map/sheet/legend.hpp"
 
 #include "render/map/sheet/event_symbols.hpp"
+#include "render/scene/unbroken_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -214,7 +215,8 @@ LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSette
         const TextLook small{note_px * unit};
         // A narrow legend grows wider rather than much higher.
         card.width_px = std::max(card.width_px, std::ceil(min_note_width_px * unit));
-        card.note = setter.wrapped(legend.note, small, card.width_px - 2 * padding_px * unit);
+        card.note = setter.wrapped(
+            with_unbroken_numbers(legend.note), small, card.width_px - 2 * padding_px * unit);
     }
     const double note = card.note.empty() ? 0 : double(card.note.size()) * note_row_px + 10;
     card.height_px = std::ceil((2 * padding_px + title_px + 8 + rows * row_px - 6 + note) * unit);

@@ -15,8 +15,9 @@ namespace {
 constexpr double most_share = 0.32; // of the sheet: insets are square, or flatter in a column
 constexpr double min_mark_px = 9;   // side of a part on the locator, at 1000 px
 
-constexpr double min_panel = 0.27;     // of the map's side: else there is no room for details
+constexpr double min_panel = 0.18;     // of the map's side: else there is no room for details
 constexpr double max_panel = 0.6;      // likewise: else the map would be the smaller part
+constexpr double min_detail = 150;     // side of a detail, 1/96 inch on paper: 40 mm
 constexpr double detail_shape = 1.3;   // width / height, about that of a screen
 constexpr std::size_t max_details = 3; // more would be smaller than they are worth
 constexpr double min_enlarged = 2.5;   // of a detail over its map
@@ -105,10 +106,11 @@ std::optional<DetailLayout> detail_layout(const MapScene& scene,
     parts.legend.bottom = panel.top + card.height_px;
     const PixelBox room{panel.left, parts.legend.bottom + air, panel.right, panel.bottom};
     double nearest = std::numeric_limits<double>::infinity();
+    const double min_px = std::max(double(min_image_px), min_detail * layout.paper_unit);
     for (std::size_t n = count > 0 ? count : 1; n <= (count > 0 ? count : max_details); ++n) {
         auto boxes = divided(room, n, air);
         const auto& first = boxes.front();
-        if (first.width() < min_image_px || first.height() < min_image_px) {
+        if (first.width() < min_px || first.height() < min_px) {
             break;
         }
         const double away = std::abs(std::log(first.width() / first.height() / detail_shape));

@@ -2,11 +2,9 @@
 
 #include "estimator/common/utf8.hpp"
 #include "render/scene/unbroken_numbers.hpp"
-
-#include <fmt/format.h>
+#include "render/text/pdf_families.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 #include <string_view>
 
 namespace macadam {
@@ -15,11 +13,6 @@ using namespace document;
 
 namespace {
 
-// From fonts-noto-core, first those of scripts that other fonts have too; Pango substitutes
-// installed fonts for missing scripts.
-constexpr const char* families = "Noto Sans,Noto Sans Arabic,Noto Sans Hebrew,Noto Sans Armenian,"
-                                 "Noto Sans Georgian,Noto Sans Lao,{}Noto Sans Math,"
-                                 "Noto Sans Symbols2,sans-serif";
 constexpr float line_spacing = 1.12F; // relative to the font's own, which is 1.36 for Noto Sans
 
 struct FreeFont {
@@ -46,35 +39,6 @@ std::string cleaned(const std::string& text) {
         rest.remove_prefix(letter.size());
     }
     return clean;
-}
-
-/// Returns the font family of a text's Han characters with a comma; "" for a text without them.
-/// They take the shapes of the country whose letters are beside them, and by default those of
-/// China, as on maps.
-std::string cjk_family_for(const std::string& text) {
-    const auto has = [&](std::initializer_list<GUnicodeScript> scripts) {
-        for (const auto* c = text.c_str(); *c != '\0'; c = g_utf8_next_char(c)) {
-            if (std::ranges::find(scripts, g_unichar_get_script(g_utf8_get_char(c))) !=
-                scripts.end()) {
-                return true;
-            }
-        }
-        return false;
-    };
-    if (has({G_UNICODE_SCRIPT_HIRAGANA, G_UNICODE_SCRIPT_KATAKANA})) {
-        return "Noto Sans CJK JP,";
-    }
-    if (has({G_UNICODE_SCRIPT_HANGUL})) {
-        return "Noto Sans CJK KR,";
-    }
-    if (has({G_UNICODE_SCRIPT_BOPOMOFO})) {
-        return "Noto Sans CJK TC,";
-    }
-    return has({G_UNICODE_SCRIPT_HAN}) ? "Noto Sans CJK SC," : "";
-}
-
-std::string families_for(const std::string& text) {
-    return fmt::format(families, cjk_family_for(text));
 }
 
 guint16 channel(std::uint32_t rgb, int shift) {
@@ -127,7 +91,7 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
         target_ = span.target.empty() ? target_ : span.target;
         address_ = span.address.empty() ? address_ : span.address;
     }
-    pango_font_description_set_family(font.get(), families_for(text).c_str());
+    pango_font_description_set_family(font.get(), pdf_families_for(text).c_str());
     pango_layout_set_font_description(layout_.get(), font.get());
     insert(looks.get(), pango_attr_font_features_new("tnum=1"), 0, text.size());
     pango_layout_set_text(layout_.get(), text.data(), static_cast<int>(text.size()));

@@ -305,6 +305,18 @@ TEST(PdfMap, SetsAnyScriptAndTextThatIsNone) {
     EXPECT_THAT(text, HasSubstr("end"));
 }
 
+TEST(PdfMap, WritesHanCharactersInTheShapesOfTheLettersBesideThem) {
+    const auto folder = fresh_folder();
+    const auto fonts_of = [&](const std::string& title) {
+        auto scene = crossing();
+        scene.title = title;
+        return output_of(folder, "pdffonts " + pdf_in(folder, scene, {}).string());
+    };
+    EXPECT_THAT(fonts_of("北京道路"), HasSubstr("NotoSansCJKsc-Bold"));
+    EXPECT_THAT(fonts_of("東京の道路"), HasSubstr("NotoSansCJKjp-Bold"));
+    EXPECT_THAT(fonts_of("서울 道路"), HasSubstr("NotoSansCJKkr-Bold"));
+}
+
 TEST(PdfMap, RefusesWhatAPictureRefuses) {
     EXPECT_THAT([] { pdf_of({}, {}); },
                 ::testing::ThrowsMessage<InputError>(

@@ -14,6 +14,8 @@
 namespace macadam::testing {
 namespace {
 
+using ::testing::Not;
+
 constexpr PictureSize usual{.width_px = 1600, .height_px = 1200, .px_per_inch = 96};
 constexpr double m_per_deg = 111'195;
 constexpr double cos_lat = 0.669; // at 48 degrees
@@ -157,6 +159,20 @@ TEST(Sheet, FillsTheGroundBesideThinDataWithDetailsAtARoundScale) {
     EXPECT_FALSE(sheet.detail_room()); // it is full
 }
 
+TEST(Sheet, OfPaperIsFilledWithDetailsBelowASquareCity) {
+    constexpr PictureSize a2{
+        .width_px = 4961, .height_px = 7016, .px_per_inch = 300, .is_on_paper = true};
+    const auto square = filled("square", 10'000, 10'000).scene;
+    MapPlan plan{square, {}, a2};
+    const auto room = plan.detail_room();
+    ASSERT_TRUE(room); // of the sheet, 30 % would be empty
+    EXPECT_EQ(room->count, 3U);
+    // On A5 they would be smaller than 40 mm: the legend has a band of the page instead.
+    constexpr PictureSize a5{
+        .width_px = 1748, .height_px = 2480, .px_per_inch = 300, .is_on_paper = true};
+    EXPECT_FALSE((MapPlan{square, {}, a5}.detail_room()));
+}
+
 TEST(Sheet, HasNoDetailsWhereTheDataFillsItOrIsLargeAlready) {
     EXPECT_FALSE((MapPlan{filled("usual", 8000, 6000).scene, {}, usual}.detail_room()));
     EXPECT_FALSE((MapPlan{sheet(100, 1000), {}, usual}.detail_room())); // 1:4,000
@@ -262,6 +278,27 @@ TEST(Sheet, PutsAWideLegendWhereOnlyAFlatStripIsFree) {
     EXPECT_GT(placement.card.columns, 1);
     const auto without = placement_of(wide, {}, layout, setter);
     EXPECT_EQ(placement.frame.px_per_rad, without.frame.px_per_rad); // no smaller map
+}
+
+TEST(Sheet, KeepsNumbersWithTheirUnitsWhereALineEnds) {
+    TypeSetter setter;
+    auto scene = sheet(8000, 6000);
+    scene.title = scene.subtitle = scene.attribution =
+        "From 12.3 km to 45.6 km of 789 km at 1.5 – 2.7 mm/m in 9 % of 10 km, or 11 % of 12 km";
+    using ::testing::AnyOf;
+    using ::testing::StartsWith;
+    std::size_t lines = 0;
+    for (int width_px = 300; width_px <= 900; width_px += 20) {
+        const auto layout = layout_of(scene, {.width_px = width_px, .height_px = 1500}, setter);
+        for (const auto& text : layout.texts) {
+            EXPECT_THAT(
+                text.text,
+                Not(AnyOf(StartsWith("km"), StartsWith("mm"), StartsWith("%"), StartsWith("–"))))
+                << width_px;
+        }
+        lines += layout.texts.size();
+    }
+    EXPECT_GT(lines, 31U * 3 + 31U); // so many lines end within these texts
 }
 
 TEST(Sheet, ShowsFarOffPartsAtScalesOfTheirOwnBesideALocator) {
