@@ -125,6 +125,25 @@ void sort_for_reading(std::vector<GeoBox>& areas) {
     });
 }
 
+/// Returns the measured lengths of a filter; of a network without trips the lengths of all roads.
+std::vector<MeasuredLength> lengths_in(const StoreReader& store, const SegmentFilter& filter) {
+    std::vector<MeasuredLength> lengths;
+    const auto add = [&](const SegmentRecord& record) {
+        const auto& segment = record.segment;
+        if (!segment.line.empty()) {
+            lengths.push_back(
+                {segment.line[segment.line.size() / 2], segment.to_m - segment.from_m});
+        }
+    };
+    store.visit(filter, add);
+    if (lengths.empty()) {
+        auto all = filter;
+        all.with_state_only = false;
+        store.visit(all, add);
+    }
+    return lengths;
+}
+
 } // namespace
 
 std::string place_in(const StoreReader& store, const GeoBox& box) {
@@ -259,25 +278,30 @@ void set_details(const StoreReader& store,
                  const SegmentFilter& filter,
                  const DetailRoom& room,
                  MapScene& scene) {
-    std::vector<MeasuredLength> measured;
-    const auto add = [&](const SegmentRecord& record) {
-        const auto& segment = record.segment;
-        if (!segment.line.empty()) {
-            measured.push_back(
-                {segment.line[segment.line.size() / 2], segment.to_m - segment.from_m});
-        }
-    };
-    store.visit(filter, add);
-    if (measured.empty()) { // a network without trips: where most roads are
-        auto all = filter;
-        all.with_state_only = false;
-        store.visit(all, add);
-    }
-    for (const auto& area : densest_areas(measured, scene.box, room)) {
+    for (const auto& area : densest_areas(lengths_in(store, filter), scene.box, room)) {
         scene.insets.push_back({.box = area,
                                 .name = place_in(store, area),
                                 .scale_denominator = room.scale_denominator});
     }
+}
+
+bool centre_on_densest_area(const StoreReader& store,
+                            const SegmentFilter& filter,
+                            const DetailRoom& room,
+                            MapScene& scene) {
+    const auto& shown = is_empty(scene.data_box) ? scene.box : scene.data_box;
+    const double middle_deg = (shown.south_deg + shown.north_deg) / 2;
+    const GeoPoint south_west{shown.south_deg, shown.west_deg};
+    if (distance_m({middle_deg, shown.west_deg}, {middle_deg, shown.east_deg}) <= room.width_m &&
+        distance_m(south_west, {shown.north_deg, shown.west_deg}) <= room.height_m) {
+        return false;
+    }
+    const auto areas = densest_areas(lengths_in(store, filter), scene.box, room);
+    if (areas.empty()) {
+        return false;
+    }
+    scene.box = scene.data_box = areas.front();
+    return true;
 }
 
 } // namespace macadam

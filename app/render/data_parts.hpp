@@ -41,4 +41,14 @@ void set_details(const StoreReader& store,
                  const DetailRoom& room,
                  MapScene& scene);
 
+/// Moves the scene's box to the area of a sheet with most measured roads, unless the data fits the
+/// sheet.
+///
+/// \param room  the sheet's map
+/// \returns whether it moved the box
+bool centre_on_densest_area(const StoreReader& store,
+                            const SegmentFilter& filter,
+                            const DetailRoom& room,
+                            MapScene& scene);
+
 } // namespace macadam

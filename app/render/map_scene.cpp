@@ -341,6 +341,12 @@ MapPlan load_map(const StoreReader& store, const MapRequest& request, const Load
         set_details(store, request.filter, *room, scene);
         plan = MapPlan{std::move(scene), style, size};
     }
+    if (request.scale_denominator > 0 && !request.filter.box) {
+        scene = plan.scene();
+        if (centre_on_densest_area(store, request.filter, plan.room(), scene)) {
+            plan = MapPlan{std::move(scene), style, size};
+        }
+    }
     const auto set_background = [&](MapPlan& map, const GeoBox& box, bool with_places) {
         if (request.background) {
             const StoreBackground background{store};

@@ -42,7 +42,6 @@ const PictureSize& checked(const PictureSize& size) {
 }
 
 constexpr double much_empty = 0.25; // of the sheet: something shall fill it
-
 double middle_px(const Layout& layout) {
     return (layout.map.top + layout.map.bottom) / 2;
 }

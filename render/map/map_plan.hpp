@@ -67,6 +67,16 @@ public:
     /// `std::nullopt` if it is not, or if the data leaves too little room for them.
     std::optional<DetailRoom> detail_room();
 
+    /// Returns the ground that the map shows at its scale, as room for one area.
+    DetailRoom room() const {
+        const double m_per_px =
+            metres_per_px(placement_.frame, (layout_.map.top + layout_.map.bottom) / 2);
+        return {.count = 1,
+                .scale_denominator = scale(),
+                .width_m = layout_.map.width() * m_per_px,
+                .height_m = layout_.map.height() * m_per_px};
+    }
+
     /// Returns the share of the sheet without text, legend or data, 0 to 1.
     double empty_share() const { return macadam::empty_share(scene_, layout_, placement_); }
 

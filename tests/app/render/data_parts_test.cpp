@@ -31,7 +31,8 @@ RoadNetwork far_roads() {
     return build_network(std::move(roads), 20);
 }
 
-TEST(DataParts, HaveLettersWhereNoPlaceNamesThem) {
+/// Creates a database of the far roads, of which the southern one has more measurements.
+StoreReader measured_far_roads() {
     const auto file = test_folder() / "roads.gpkg";
     {
         auto store = RoadStore::create(file, far_roads(), settings());
@@ -45,13 +46,33 @@ TEST(DataParts, HaveLettersWhereNoPlaceNamesThem) {
         add_trip(store, trip_record(0), passes);
         store.importer.refresh();
     }
-    const auto store = StoreReader::open(file);
+    return StoreReader::open(file);
+}
+
+TEST(DataParts, HaveLettersWhereNoPlaceNamesThem) {
+    const auto store = measured_far_roads();
     MapScene scene;
     scene.box = store.map_box();
     set_insets(store, {}, scene);
     ASSERT_THAT(scene.insets, SizeIs(1));
     EXPECT_EQ(scene.insets[0].name, "A");
     EXPECT_GT(scene.insets[0].box.south_deg, scene.box.north_deg);
+}
+
+TEST(DataParts, AreInTheMiddleOfASheetThatIsTooSmallForAll) {
+    const auto store = measured_far_roads();
+    MapScene scene;
+    scene.box = store.map_box();
+    auto whole = scene;
+    const DetailRoom small{
+        .count = 1, .scale_denominator = 5000, .width_m = 1000, .height_m = 1000};
+    ASSERT_TRUE(centre_on_densest_area(store, {}, small, scene));
+    const GeoPoint south{48.2009, 15}; // with most passes; in the middle of all is no road
+    EXPECT_TRUE(contains(scene.box, south));
+    EXPECT_NEAR((scene.box.south_deg + scene.box.north_deg) / 2, south.lat_deg, 0.001);
+    const DetailRoom large{
+        .count = 1, .scale_denominator = 1e6, .width_m = 50'000, .height_m = 50'000};
+    EXPECT_FALSE(centre_on_densest_area(store, {}, large, whole)); // all is on it
 }
 
 } // namespace
