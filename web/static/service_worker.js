@@ -54,7 +54,8 @@ async function keep(request, path, response) {
 }
 
 async function keptAnswer(request, path) {
-  const found = await (await caches.open(isPage.test(path) ? kept.page : kept.data)).match(keyOf(request, path === 'index.html' ? '' : path));
+  const look = async () => (await caches.open(isPage.test(path) ? kept.page : kept.data)).match(keyOf(request, path === 'index.html' ? '' : path));
+  const found = (await look()) ?? (await keeping.then(look)); // it may be on its way into the cache
   const part = found?.headers.get('X-Part');
   return part ? new Response(await found.arrayBuffer(), { status: 206, headers: { 'Content-Range': part, ETag: found.headers.get('ETag') } }) : found ?? Response.error();
 }

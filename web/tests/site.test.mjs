@@ -534,14 +534,18 @@ describe('the page', { timeout: 600_000 }, () => {
     const { page, drawn, text, wrong, close } = await town.page(`#${at(lonely().detail, 15)}`, { keeps: true });
     const again = async () => { await page.reload(); await drawn(); };
     const keptUrls = () => page.evaluate(async () => (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat());
+    const untilKept = async (isSo) => { // Playwright's waitForFunction takes a promise for yes
+      while (!isSo(await keptUrls())) await page.waitForTimeout(50); // the test's time limit ends it
+    };
+    const place = () => /map=[^&]*/.exec(page.url())?.[0];
     await page.waitForFunction(() => navigator.serviceWorker.controller);
     await again();
+    const before = place();
     await page.locator('#worst-1 button').click();
     await page.waitForSelector('.drawer dl');
-    await page.waitForFunction(async () => {
-      const urls = (await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat();
-      return [/segments\/\d+\.json/, /roads\.pmtiles\?part=/].every((kind) => urls.some((url) => kind.test(url)));
-    });
+    await page.waitForFunction((left) => /map=[^&]*/.exec(location.hash)?.[0] !== left, before); // the map went there
+    await drawn();
+    await untilKept((urls) => [/segments\/\d+\.json/, /roads\.pmtiles\?part=/].every((kind) => urls.some((url) => kind.test(url))));
     await page.context().setOffline(true);
     await again();
     await page.waitForSelector('.drawer dl');
@@ -551,14 +555,14 @@ describe('the page', { timeout: 600_000 }, () => {
     wrong.splice(0); // the browser's own words on the failures
     await page.context().setOffline(false);
     const file = join(town.folder, 'site/site.json');
-    const before = readFileSync(file, 'utf8');
+    const content = readFileSync(file, 'utf8');
     try {
-      writeFileSync(file, before.replace('"digest":"', '"digest":"0'));
+      writeFileSync(file, content.replace('"digest":"', '"digest":"0'));
       await page.goto(town.server.url);
       await drawn();
-      await page.waitForFunction(async () => !(await Promise.all((await caches.keys()).map(async (name) => (await (await caches.open(name)).keys()).map(({ url }) => url)))).flat().some((url) => /segments\/\d+\.json/.test(url)));
+      await untilKept((urls) => !urls.some((url) => /segments\/\d+\.json/.test(url)));
     } finally {
-      writeFileSync(file, before);
+      writeFileSync(file, content);
     }
     assert.equal(await text('h1'), 'Krems <b>&amp;');
     await close();

@@ -156,17 +156,17 @@ TEST(HttpLoad, ClosesConnectionsOfThoseWhoDoNotRead) {
     auto quick = text_config();
     quick.response_time = 300ms;
     auto made = text_handlers();
-    made.answer = [](const HttpRequest&, std::size_t) {
+    std::promise<void> asked;
+    made.answer = [&](const HttpRequest&, std::size_t) {
+        asked.set_value();
         return HttpResponse{.type = "image/png", .body = std::string(20'000'000, 'a')};
     };
     quick.slowest_bytes = 1'000'000'000;
     const HttpServer server{quick, made};
     HttpClient lazy{server.port()};
     lazy.send("GET /a HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    while (server.connections() == 0) { // the test's time limit ends it
-        std::this_thread::sleep_for(1ms);
-    }
-    while (server.connections() > 0) {
+    asked.get_future().wait();
+    while (server.connections() > 0) { // the test's time limit ends it
         std::this_thread::sleep_for(10ms);
     }
     SUCCEED();
@@ -219,25 +219,42 @@ TEST(HttpLoad, RefusesClientsOfAProxyWithTooManyRequests) {
     few.behind_proxy = true;
     few.max_per_address = 1;
     few.hosts = {"roads.example"};
-    const HttpServer server{few, text_handlers()};
+    auto made = text_handlers();
+    std::promise<void> begun, go;
+    made.answer = [&](const HttpRequest& request, std::size_t) -> HttpResponse {
+        if (request.path == "/held") {
+            begun.set_value();
+            go.get_future().wait();
+        }
+        return {.body = "a"};
+    };
+    const HttpServer server{few, made};
     HttpClient first{server.port()};
     first.send(
-        "GET /slow HTTP/1.1\r\nHost: roads.example\r\nX-Forwarded-For: 6.6.6.6, 1.2.3.4\r\n\r\n");
-    std::this_thread::sleep_for(100ms); // until it is at work
+        "GET /held HTTP/1.1\r\nHost: roads.example\r\nX-Forwarded-For: 6.6.6.6, 1.2.3.4\r\n\r\n");
+    begun.get_future().wait();
     const auto second = get(server.port(), "/a", "X-Forwarded-For: 1.2.3.4\r\n");
     EXPECT_EQ(second.status, 429);
     EXPECT_EQ(second.headers.at("retry-after"), "1");
     EXPECT_EQ(get(server.port(), "/a", "X-Forwarded-For: 1.2.3.5\r\n").status, 200);
+    go.set_value();
     EXPECT_EQ(first.answer().status, 200);
 }
 
 TEST(HttpLoad, AnswersWhatIsAtWorkBeforeItEnds) {
+    auto made = text_handlers();
+    std::promise<void> begun;
+    made.answer = [&](const HttpRequest&, std::size_t) -> HttpResponse {
+        begun.set_value();
+        std::this_thread::sleep_for(500ms);
+        return {.body = "a"};
+    };
     std::optional<HttpServer> server;
-    server.emplace(text_config(), text_handlers());
+    server.emplace(text_config(), made);
     HttpClient client{server->port()};
-    client.send("GET /slow HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    std::this_thread::sleep_for(100ms);
-    server->drain(10s);
+    client.send("GET /a HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    begun.get_future().wait();
+    server->drain(1min);
     EXPECT_EQ(client.answer().status, 200);
     server.reset();
 }

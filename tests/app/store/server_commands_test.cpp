@@ -16,29 +16,11 @@
 #include <thread>
 #include <vector>
 
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 namespace macadam::testing {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-/// Port that nobody uses just now.
-std::uint16_t free_port() {
-    const int any = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* const plain = reinterpret_cast<sockaddr*>(&address);
-    EXPECT_EQ(bind(any, plain, size), 0);
-    EXPECT_EQ(getsockname(any, plain, &size), 0);
-    close(any);
-    return ntohs(address.sin_port);
-}
 
 class ServerCommands : public ::testing::Test {
 protected:
@@ -150,21 +132,17 @@ TEST_F(ServerCommands, ReadWhatTheyReadOfAFile) {
 
 TEST_F(ServerCommands, ServeADatabaseWhileItGrows) {
     ASSERT_EQ(run_on(address_, {"init", "--trace", trip_}).exit_status, 0);
-    const auto port = free_port();
+    const auto port = quiet_port();
     PipedProgram serve{{"serve", address_, "--listen", "127.0.0.1:" + std::to_string(port)}};
-    const auto shows = [&](const std::string& words) { // within 30 s
-        for (int i = 0; i < 300; ++i) {
-            if (get(port, "/collections/segments/items?limit=1").body.find(words) !=
-                std::string::npos) {
-                return true;
-            }
+    const auto await = [&](const std::string& words) { // the test's time limit ends it
+        while (get(port, "/collections/segments/items?limit=1").body.find(words) ==
+               std::string::npos) {
             std::this_thread::sleep_for(std::chrono::milliseconds{100});
         }
-        return false;
     };
-    EXPECT_TRUE(shows("\"numberMatched\":0,"));
+    await("\"numberMatched\":0,");
     ASSERT_EQ(run_on(address_, {"import", trip_, "--method", "kf"}).exit_status, 0);
-    EXPECT_TRUE(shows("\"iri\":"));
+    await("\"iri\":");
     serve.signal(SIGTERM);
     EXPECT_EQ(serve.wait().exit_status, 0);
     const auto refused = run_on(address_, {"serve", "--only-with-token"});

@@ -23,8 +23,6 @@
 #include <thread>
 #include <vector>
 
-#include <unistd.h>
-
 namespace macadam::testing {
 namespace {
 
@@ -170,7 +168,7 @@ protected:
 
     fs::path folder_ = fresh_folder();
     std::string store_ = at("crowd.gpkg");
-    std::uint16_t port_ = static_cast<std::uint16_t>(20'000 + (::getpid() + 7) % 20'000);
+    std::uint16_t port_ = quiet_port();
     std::string token_;
 };
 

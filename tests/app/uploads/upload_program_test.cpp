@@ -24,8 +24,6 @@
 #include <thread>
 #include <vector>
 
-#include <unistd.h>
-
 namespace macadam::testing {
 namespace {
 
@@ -47,11 +45,6 @@ std::string sha256_of(std::string_view bytes) {
     Sha256 hash;
     hash.add(bytes);
     return hash.hex();
-}
-
-/// Port that nobody listens on; tests of one machine differ by their process.
-std::uint16_t quiet_port() {
-    return static_cast<std::uint16_t>(20'000 + ::getpid() % 20'000);
 }
 
 /// Database of one road, with a token of its operator.

@@ -32,7 +32,7 @@ protected:
     }
 
     static PostgresServer& one_server() {
-        static PostgresServer server{std::chrono::seconds{60}};
+        static PostgresServer server{std::chrono::seconds{1700}}; // for all tests of this process
         return server;
     }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 
@@ -59,6 +60,7 @@ bool HttpClient::read_more() {
 }
 
 bool HttpClient::is_closed() {
+    errno = 0; // an end leaves it as it was
     while (read_more()) {
     }
     return errno != EAGAIN;
@@ -106,6 +108,25 @@ std::string HttpClient::read_until(std::string_view words) {
     auto text = read_.substr(0, size);
     read_.erase(0, size);
     return text;
+}
+
+std::uint16_t quiet_port() {
+    constexpr int first = 10'000, count = 22'000; // Linux gives clients those from 32768 on
+    static std::atomic<int> asked = 0;
+    for (;;) {
+        // Tests that run at the same time begin at different ones.
+        const auto port = static_cast<std::uint16_t>(first + (::getpid() + 7919 * asked++) % count);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(port);
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const int probe = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        const int code = bind(probe, reinterpret_cast<sockaddr*>(&address), sizeof address);
+        close(probe);
+        if (code == 0) {
+            return port;
+        }
+    }
 }
 
 Answer get(std::uint16_t port, std::string_view target, std::string_view headers) {

@@ -38,6 +38,10 @@ private:
     std::string read_;
 };
 
+/// Port of 127.0.0.1 that nobody listens on, for a server that is started on it again and again. It
+/// is none of those that the system gives to clients, which would take it between two starts.
+std::uint16_t quiet_port();
+
 /// Asks by GET, with further header lines, each with its line end.
 Answer get(std::uint16_t port, std::string_view target, std::string_view headers = {});
 

@@ -70,7 +70,8 @@ void PostgresServer::start() {
         folder_,
         fmt::format("(cd / && unset PGHOST PGUSER PGDATABASE PGPASSWORD; {} timeout -k 5 {}"
                     " {}/postgres -D {}/data -c listen_addresses="
-                    " -c unix_socket_directories={} -c fsync=off >/dev/null 2>&1 </dev/null &)",
+                    " -c unix_socket_directories={} -c fsync=off -c autovacuum=off"
+                    " >/dev/null 2>&1 </dev/null &)",
                     as_ordinary_user(),
                     most_.count(),
                     programs,
@@ -84,11 +85,13 @@ void PostgresServer::start() {
 }
 
 void PostgresServer::kill_and_restart() {
-    // The workers first: they would not let another one in.
+    // The workers first: while one of them has the memory of all, another server is not let in.
     expect_success(folder_,
                    fmt::format("first=$(head -1 {0}/data/postmaster.pid); kill -STOP $first;"
-                               " kill -KILL $(ps -o pid= --ppid $first) $first;"
-                               " rm -f {0}/data/postmaster.pid {0}/.s.PGSQL.5432*; sleep 0.2",
+                               " all=\"$(ps -o pid= --ppid $first) $first\"; kill -KILL $all;"
+                               " while ps -o stat= -p \"$(echo $all | tr ' ' ,)\" | grep -qv ^Z;"
+                               " do sleep 0.02; done;"
+                               " rm -f {0}/data/postmaster.pid {0}/.s.PGSQL.5432*",
                                folder_.string()));
     start();
 }

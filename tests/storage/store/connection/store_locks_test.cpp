@@ -265,13 +265,13 @@ fs::path file_of_a_table() {
 
 TEST(LockWait, LastsAsLongAsTheHolderWorks) {
     const auto file = file_of_a_table();
-    const Holder holder{file, Journal::rollback, [] { work_for(3s); }};
+    const Holder holder{file, Journal::rollback, [] { work_for(4s); }};
     Database database{file, Database::Access::write};
     std::string told;
     database.set_lock_wait({.tell = [&](const std::string& words) { told += words; },
                             .stop = {},
                             .tell_after = 1ms,
-                            .idle_limit = 1s});
+                            .idle_limit = 2s}); // no pause of a busy machine is as long
     Transaction turn{database, Transaction::Kind::write};
     database.run("INSERT INTO a VALUES (1)");
     turn.commit();

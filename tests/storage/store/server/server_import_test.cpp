@@ -7,6 +7,7 @@
 #include "storage/store/server/reader/server_reader.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
 #include "support/files/files.hpp"
+#include "support/program/lost_standby.hpp"
 #include "support/roads/engine_world.hpp"
 #include "support/roads/store_world.hpp"
 
@@ -38,13 +39,19 @@ protected:
     /// Waits until some other connection waits for something of this kind.
     void await_waiter(const std::string& what) {
         ServerConnection boss{database_.server().address("roads")};
-        for (int i = 0; i < 3000; ++i) {
-            if (boss.number("SELECT count(*) FROM pg_stat_activity WHERE " + what) > 0) {
-                return;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        while (boss.number("SELECT count(*) FROM pg_stat_activity WHERE " + what) == 0) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{10}); // the time limit ends it
         }
-        FAIL() << "nobody waits: " << what;
+    }
+
+    /// Waits until the server has done with all other connections, and has told what they counted:
+    /// it does so after they were closed.
+    void await_end_of_others() {
+        ServerConnection boss{database_.server().address("roads")};
+        while (boss.number("SELECT count(*) FROM pg_stat_activity WHERE backend_type = 'client"
+                           " backend' AND pid <> pg_backend_pid()") > 0) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{10}); // the time limit ends it
+        }
     }
 
     std::int64_t number(const std::string& sql) {
@@ -192,7 +199,8 @@ TEST_F(ServerImports, FindAllThatTheyLookUpByIndexes) {
         " OR relname IN ('trip', 'vehicle', 'forgotten', 'chunk_dirty',"
         " 'chunk_state', 'chunk_change', 'state_change', 'event',"
         " 'event_search', 'row_reason', 'audit', 'valid_from')) ORDER BY 1";
-    import_rich_trips(*database_.import().trips, 2); // opened and closed: its counts are told
+    import_rich_trips(*database_.import().trips, 2);
+    await_end_of_others();
     const auto before = ServerConnection{database_.name()}.rows(scans);
     ASSERT_GE(before.size(), 14U);
     {
@@ -205,29 +213,26 @@ TEST_F(ServerImports, FindAllThatTheyLookUpByIndexes) {
         EXPECT_TRUE(store.trips->contains_trip(RichTrip{5}.record.sha256));
         EXPECT_FALSE(store.trips->has_forgotten(RichTrip{5}.record.sha256));
     }
+    await_end_of_others();
     EXPECT_EQ(ServerConnection{database_.name()}.rows(scans), before);
 }
 
 TEST_F(ServerImports, SayThatATripIsInDoubtUntilItsStandbyHasIt) {
     const auto boss = database_.server().address("roads");
-    const auto is_waiting = std::string{"wait_event = 'SyncRep'"};
     const auto store = database_.import();
-    ServerConnection{boss}.run("ALTER SYSTEM SET synchronous_standby_names = 'nobody'");
-    ServerConnection{boss}.run("SELECT pg_reload_conf()");
-    std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    lose_standby(boss);
     auto first = std::async(std::launch::async,
                             [&] { return refusal_of([&] { add_rich_trip(*store.trips, 1); }); });
-    await_waiter(is_waiting);
+    await_waiter(waits_for_standby);
     ServerConnection{boss}.number(
-        "SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " + is_waiting);
+        "SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " + waits_for_standby);
     EXPECT_THAT(first.get(), AllOf(HasSubstr("in doubt"), HasSubstr("run the command again")));
 
     // The server has it, but "known" is not said before the standby does.
     auto again = std::async(std::launch::async, [&] { return add_rich_trip(*store.trips, 1); });
-    await_waiter(is_waiting);
+    await_waiter(waits_for_standby);
     EXPECT_EQ(again.wait_for(std::chrono::milliseconds{100}), std::future_status::timeout);
-    ServerConnection{boss}.run("ALTER SYSTEM RESET synchronous_standby_names");
-    ServerConnection{boss}.run("SELECT pg_reload_conf()");
+    need_no_standby(boss);
     EXPECT_FALSE(again.get());
     EXPECT_TRUE(store.trips->contains_trip(trip_record(1).sha256));
 }
