@@ -31,7 +31,7 @@ before(async () => {
   server = await served(database);
   url = server.url;
   api = JSON.parse((await ask('/api')).body);
-}, { timeout: 110_000 });
+}, { timeout: 300_000 });
 
 after(() => {
   agent.destroy();
@@ -73,7 +73,7 @@ function requests() {
   return fc.oneof(...each.map(([pattern, arbitrary]) => ({ weight: pattern.endsWith('/items') ? 15 : 1, arbitrary })));
 }
 
-describe('the API', { timeout: 110_000 }, () => {
+describe('the API', { timeout: 300_000 }, () => {
   test('answers 2,000 random requests as its definition says', async () => {
     const ajv = new Ajv({ strict: false, validateFormats: false });
     ajv.addSchema({ $id: 'api', components: api.components });
@@ -103,7 +103,7 @@ describe('the API', { timeout: 110_000 }, () => {
   });
 });
 
-describe('the data of a page that was opened before a change', { timeout: 110_000 }, () => {
+describe('the data of a page that was opened before a change', { timeout: 300_000 }, () => {
   test('is that of one version, the newer one from the next question on', async () => {
     const copies = join(folder, 'changing');
     for (const file of readdirSync(join(database, '..')).filter((name) => /^roads\.gpkg/.test(name) && !/wal|shm|uploads/.test(name))) cpSync(join(database, '..', file), join(copies, file));

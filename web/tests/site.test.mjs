@@ -8,7 +8,7 @@ import { served } from './served.mjs';
 import { world } from './browser.mjs';
 
 let town;
-before(async () => { town = await world(); }, { timeout: 110_000 });
+before(async () => { town = await world(); }, { timeout: 300_000 });
 after(() => town?.close());
 
 const km = (text) => Number(/([\d.]+) km/.exec(text)[1]);
@@ -32,7 +32,7 @@ const details = () => {
 };
 const at = ({ line }, zoom = 18) => `map=${zoom}/${((line[0][1] + line.at(-1)[1]) / 2).toFixed(6)}/${((line[0][0] + line.at(-1)[0]) / 2).toFixed(6)}`;
 
-describe('a site in a folder', { timeout: 110_000 }, () => {
+describe('a site in a folder', { timeout: 300_000 }, () => {
   test('has the fields of every measured segment as query prints them', () => {
     const index = JSON.parse(readFileSync(join(town.folder, 'site/segments/index.json'), 'utf8'));
     const all = index.flatMap((_, i) => Object.values(JSON.parse(readFileSync(join(town.folder, `site/segments/${i}.json`), 'utf8'))));

@@ -9,9 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <regex>
 #include <set>
+#include <thread>
 
 namespace macadam::testing {
 namespace {
@@ -79,6 +81,17 @@ protected:
         return ways;
     }
 
+    /// Waits for the next month if this one is about to end, UTC: a test is to publish twice in
+    /// one.
+    static void await_a_month() {
+        using namespace std::chrono;
+        constexpr minutes longest{1};
+        const auto month_at = [](auto time) { return year_month_day{floor<days>(time)}.month(); };
+        while (month_at(system_clock::now()) != month_at(system_clock::now() + longest)) {
+            std::this_thread::sleep_for(seconds{1});
+        }
+    }
+
     void lose_key() const { fs::rename(store_ + ".key", at("kept.key")); }
 
     fs::path folder_;
@@ -111,6 +124,7 @@ private:
 
 TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
     make("crowd");
+    await_a_month();
     EXPECT_THAT(exported_ways(), IsEmpty());
     EXPECT_THAT(run({"export", store_, "-o", at("none.csv")}).err,
                 HasSubstr("crowd database without a publication"));
@@ -194,6 +208,7 @@ TEST_F(Crowd, IsOnAServerWhatItIsInAFile) {
         EXPECT_EQ(run(on_server).out, run(in_file).out) << words.front();
     };
     expect_same({"info", "--digest"});
+    await_a_month();
     expect_same({"publish"});
     const auto ways_in_file = exported_ways();
     store_ = address;
