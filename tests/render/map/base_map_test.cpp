@@ -6,6 +6,7 @@
 #include "render/roads/road_painter.hpp"
 #include "render/roads/road_polylines.hpp"
 #include "render/scene/colour.hpp"
+#include "support/files/files.hpp"
 #include "support/program/shell.hpp"
 
 #include <gmock/gmock.h>
@@ -245,13 +246,6 @@ TEST(BaseMap, HasNoSeamBetweenThePartsThatOpenGlDrawsAtOnce) {
 
 class BaseMapOnPaper : public ::testing::Test {
 protected:
-    void SetUp() override {
-        const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path{::testing::TempDir()} / (std::string{"macadam_"} + test->name());
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-
     std::string pdf_of(const MapScene& scene, const MapStyle& style) const {
         return MapPlan{scene, style, {1240, 877}}.pdf({.width_px = 1240,
                                                        .height_px = 877,
@@ -267,7 +261,7 @@ protected:
         return file;
     }
 
-    fs::path folder_;
+    fs::path folder_ = test_folder();
 };
 
 TEST_F(BaseMapOnPaper, IsOnePictureUnderRoadsThatStayLines) {

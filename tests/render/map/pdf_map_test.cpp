@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "render/scene/colour.hpp"
+#include "support/files/files.hpp"
 #include "support/program/shell.hpp"
 
 #include <gmock/gmock.h>
@@ -17,14 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-fs::path fresh_folder() {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    auto folder = fs::path{::testing::TempDir()} / (std::string{"macadam_"} + test->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
 
 /// A cross of two roads, driven both ways, and one that nobody drove.
 MapScene crossing() {
@@ -106,7 +99,7 @@ double difference(const Image& a, const Image& b, const PixelBox& part) {
 }
 
 TEST(PdfMap, LooksLikeThePicture) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     for (const auto theme :
          {MapStyle::Theme::light, MapStyle::Theme::dark, MapStyle::Theme::print}) {
         const MapStyle style{.theme = theme};
@@ -123,7 +116,7 @@ TEST(PdfMap, LooksLikeThePicture) {
 }
 
 TEST(PdfMap, HasItsTextAsText) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto pdf = pdf_in(folder, crossing(), {});
     const auto text = output_of(folder, "pdftotext -layout " + pdf.string() + " -");
     for (const auto* words : {"Straßenzustand Győr",
@@ -184,7 +177,7 @@ std::size_t count_of(const std::string& text, const std::string& words) {
 }
 
 TEST(PdfMap, HasTheNamesOfRoadsAsTextInAnyScriptAndDirection) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto pdf = pdf_in(folder, crooked_streets(), {}).string();
     const auto text = output_of(folder, "pdftotext " + pdf + " -");
     for (const std::string name : names) {
@@ -195,7 +188,7 @@ TEST(PdfMap, HasTheNamesOfRoadsAsTextInAnyScriptAndDirection) {
 }
 
 TEST(PdfMap, LeavesNamesOutWhereTheStyleDoes) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto pdf = pdf_in(folder, crooked_streets(), {.labels = false}).string();
     const auto text = output_of(folder, "pdftotext " + pdf + " -");
     EXPECT_THAT(text, Not(HasSubstr("Győr–")));
@@ -203,7 +196,7 @@ TEST(PdfMap, LeavesNamesOutWhereTheStyleDoes) {
 }
 
 TEST(PdfMap, HasNamesWhereThePictureHasThem) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     // Over a road that goes through letters the halo counts, too.
     auto scene = crooked_streets();
     MapLine across;
@@ -223,7 +216,7 @@ TEST(PdfMap, HasNamesWhereThePictureHasThem) {
 }
 
 TEST(PdfPage, PutsAHaloAroundTurnedLetters) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     TypeSetter setter;
     const TextLook look{.size_px = 60};
     const auto glyph = setter.set("l", look).glyphs.at(0); // an upright stroke
@@ -265,7 +258,7 @@ TEST(PdfPage, PutsAHaloAroundTurnedLetters) {
 }
 
 TEST(PdfMap, CarriesItsFonts) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto fonts = output_of(folder, "pdffonts " + pdf_in(folder, crossing(), {}).string());
     EXPECT_THAT(fonts, HasSubstr("NotoSans-Regular"));
     EXPECT_THAT(fonts, HasSubstr("NotoSans-Bold"));
@@ -274,14 +267,14 @@ TEST(PdfMap, CarriesItsFonts) {
 }
 
 TEST(PdfMap, HasNoPicturesInIt) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto images =
         output_of(folder, "pdfimages -list " + pdf_in(folder, crossing(), {}).string());
     EXPECT_EQ(std::ranges::count(images, '\n'), 2) << images; // the table's head
 }
 
 TEST(PdfMap, SaysOfItselfWhatItWasToldAndNotTheTime) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto info =
         output_of(folder, "TZ=UTC pdfinfo -isodates " + pdf_in(folder, crossing(), {}).string());
     EXPECT_THAT(info, HasSubstr("Title:           Straßenzustand\n"));
@@ -297,7 +290,7 @@ TEST(PdfMap, IsTheSameByteForByteEachTime) {
 }
 
 TEST(PdfMap, SetsAnyScriptAndTextThatIsNone) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     auto scene = crossing();
     scene.title = "Ωμέγα Вулиця हिन्दी \xff\x01 end";
     const auto text = output_of(folder, "pdftotext " + pdf_in(folder, scene, {}).string() + " -");
