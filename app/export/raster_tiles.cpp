@@ -16,6 +16,7 @@
 #include <functional>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -269,9 +270,16 @@ void expect_not_stopped(const Progress& progress) {
 /// Requires a single thread. A forked child has only this one: a lock held by another, such as that
 /// of the allocator, would stay locked for ever.
 void expect_one_thread() {
-    const std::filesystem::directory_iterator tasks{"/proc/self/task"};
-    if (std::distance(begin(tasks), end(tasks)) != 1) {
-        throw std::logic_error{"drawing processes must be started before any thread"};
+    const auto threads = [] {
+        const std::filesystem::directory_iterator tasks{"/proc/self/task"};
+        return std::distance(begin(tasks), end(tasks));
+    };
+    constexpr int most_looks = 100; // the system lists a thread for a moment after it was joined
+    for (int look = 1; threads() != 1; ++look) {
+        if (look == most_looks) {
+            throw std::logic_error{"drawing processes must be started before any thread"};
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
 }
 
