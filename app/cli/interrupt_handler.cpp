@@ -19,7 +19,7 @@ namespace macadam {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int slowness = 10; // factor under sanitizers
+constexpr int slowness = 20; // factor under sanitizers, on a machine that is busy with tests
 #else
 constexpr int slowness = 1;
 #endif

@@ -7,7 +7,10 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <deque>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -200,11 +203,16 @@ TEST(LiveProgram, EndsWhenNobodyReadsAnyMore) {
 }
 
 TEST(LiveProgram, EndsWithWordsWhenItIsInterrupted) {
+    const auto log = until(log_text(), 40);
+    std::deque<PipedProgram> programs; // at once: each waits a while before it ends by itself
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        PipedProgram program{{"trace", "--live", "--method", "kf"}};
-        program.write(until(log_text(), 40));
+        auto& program =
+            programs.emplace_back(std::vector<std::string>{"trace", "--live", "--method", "kf"});
+        program.write(log);
         ASSERT_TRUE(program.line(timeout)); // and waits for more
         program.signal(signal);
+    }
+    for (auto& program : programs) {
         const auto end = program.wait();
         EXPECT_EQ(end.exit_status, 1);
         EXPECT_THAT(end.err, HasSubstr("macadam trace: interrupted"));
