@@ -33,7 +33,7 @@ export async function world() {
       const opened = await browser.newContext({ viewport: { width, height }, locale: 'en-GB', ...context });
       const page = await opened.newPage();
       if (!keeps) await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'serviceWorker', { value: undefined }));
-      page.setDefaultTimeout(40_000);
+      page.setDefaultTimeout(100_000);
       const wrong = [];
       page.on('request', (request) => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(url)) wrong.push(`asked ${request.url()}`); });
       page.on('pageerror', (error) => wrong.push(String(error)));

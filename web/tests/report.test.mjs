@@ -27,7 +27,7 @@ after(async () => {
 async function opened(width, more = {}, hash = '') {
   const context = await browser.newContext({ viewport: { width, height: 800 }, ...more });
   const page = await context.newPage();
-  page.setDefaultTimeout(40_000);
+  page.setDefaultTimeout(100_000);
   const wrong = [];
   page.on('request', (request) => { if (!/^(blob:|data:|file:)/.test(request.url())) wrong.push(`asked ${request.url()}`); });
   page.on('pageerror', (error) => wrong.push(String(error)));

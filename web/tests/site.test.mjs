@@ -87,7 +87,7 @@ describe('a network of what tiles have shown', () => {
   });
 });
 
-describe('the page', { timeout: 600_000 }, () => {
+describe('the page', { timeout: 1000_000 }, () => {
   test('opens the drawer with the numbers of query where the map is clicked', async () => {
     const { found, detail } = lonely();
     const { page, text, close } = await town.page(`#${at(detail)}`);
