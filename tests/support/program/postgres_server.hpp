@@ -7,14 +7,14 @@
 namespace macadam::testing {
 
 /// PostgreSQL server of an ordinary user, for one test: on a socket in a folder of its own, with a
-/// superuser `boss`. It is stopped at the end of the test, and ends itself after 110 s. Keys and
+/// superuser `boss`. It is stopped at the end of the test, and ends itself after 400 s. Keys and
 /// roads of its databases are kept there too, by the variables of the environment.
 class PostgresServer {
 public:
     /// Starts it.
     /// \param most  time after which it ends itself
     /// \throws std::runtime_error  with what it says, if it does not start.
-    explicit PostgresServer(std::chrono::seconds most = std::chrono::seconds{110});
+    explicit PostgresServer(std::chrono::seconds most = std::chrono::seconds{400});
     PostgresServer(const PostgresServer&) = delete;
     PostgresServer& operator=(const PostgresServer&) = delete;
     ~PostgresServer();
