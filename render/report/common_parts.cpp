@@ -1,5 +1,6 @@
 #include "render/report/common_parts.hpp"
 
+#include "render/scene/isolated_text.hpp"
 #include "render/scene/scale_bar.hpp"
 
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ std::string unmeasured_words(const Report& report) {
 
 std::string road_name(const Report& report, const WorstSection& stretch) {
     if (!stretch.name.empty()) {
-        return stretch.name;
+        return isolated(stretch.name);
     }
     const auto kind =
         stretch.highway.empty() ? std::string_view{"other"} : road_kind(stretch.highway);

@@ -28,7 +28,7 @@ std::string class_range(const Report& report, const Localisation& wording, std::
 std::string few_passes_words(const Report& report);
 std::string unmeasured_words(const Report& report);
 
-/// Returns the road's name, or its kind if it has no name.
+/// Returns the road's name for use in sentences, too, or its kind if it has no name.
 std::string road_name(const Report& report, const WorstSection& stretch);
 
 /// Returns the chainage along its ways, as driven: it decreases where a way is driven in reverse

@@ -1,5 +1,6 @@
 #include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
+#include "render/scene/isolated_text.hpp"
 
 #include <fmt/format.h>
 
@@ -31,16 +32,17 @@ Table table_of(const Report& report) {
     for (const auto& event : report.events) {
         const auto size =
             fmt::format("{} ± {}", say.small_size(event.size_mm), say.small_size(event.sd_mm));
-        table.rows.push_back({say(fmt::format("event.{}", name_of(event.kind))),
-                              say(fmt::format("event.{}", name_of(severity_of(event.size_mm)))),
-                              size,
-                              event.name.empty() ? kind_name(report, event.highway) : event.name,
-                              position_text(report, event),
-                              fmt::format("{:.5f}, {:.5f}", event.at.lat_deg, event.at.lon_deg),
-                              say("event.share",
-                                  {{"passes", fmt::format("{}", event.passes)},
-                                   {"over", fmt::format("{}", event.passes_over)}}),
-                              event.last_seen.empty() ? "–" : say.day(event.last_seen)});
+        table.rows.push_back(
+            {say(fmt::format("event.{}", name_of(event.kind))),
+             say(fmt::format("event.{}", name_of(severity_of(event.size_mm)))),
+             size,
+             event.name.empty() ? kind_name(report, event.highway) : isolated(event.name),
+             position_text(report, event),
+             fmt::format("{:.5f}, {:.5f}", event.at.lat_deg, event.at.lon_deg),
+             say("event.share",
+                 {{"passes", fmt::format("{}", event.passes)},
+                  {"over", fmt::format("{}", event.passes_over)}}),
+             event.last_seen.empty() ? "–" : say.day(event.last_seen)});
     }
     return table;
 }

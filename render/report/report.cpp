@@ -2,6 +2,7 @@
 
 #include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
+#include "render/scene/isolated_text.hpp"
 
 #include <cassert>
 
@@ -14,7 +15,8 @@ Document report_document(const Report& report) {
     Document document{.language = say.language->code,
                       .title = report.title,
                       .subtitle = subtitle_of(report),
-                      .running_head = report.title + (period.empty() ? "" : " · " + period),
+                      .running_head =
+                          isolated(report.title) + (period.empty() ? "" : " · " + period),
                       .page_of = *find_message(*say.language, "page"),
                       .day = report.period.last,
                       .keys = key_numbers(report),

@@ -37,6 +37,16 @@ bool begins_with_upper_end(std::string_view text) {
 
 } // namespace
 
+std::size_t slashed_unit_at_start(std::string_view text) {
+    for (const std::string_view unit : {"mm/m", "in/mi"}) {
+        if (text.starts_with(unit) &&
+            (text.size() == unit.size() || !is_letter(text[unit.size()]))) {
+            return unit.size();
+        }
+    }
+    return 0;
+}
+
 std::string with_unbroken_numbers(std::string_view text) {
     std::string unbroken;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,6 +1,8 @@
 #include "render/report/document/html.hpp"
 
 #include "estimator/common/utf8.hpp"
+#include "render/scene/isolated_text.hpp"
+#include "render/scene/unbroken_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -28,6 +30,14 @@ std::string_view as_html(char c, std::string_view itself) {
     }
 }
 
+/// Tests whether a break may be added before a letter. Marks belong to the letter before them; the
+/// scripts from Hebrew on have marks, joined letters, or words without spaces, where pages break
+/// them by rules of their own.
+bool may_follow_break(char32_t letter) {
+    constexpr char32_t first_mark = 0x300, last_mark = 0x36F, hebrew = 0x590;
+    return letter < hebrew && !(first_mark <= letter && letter <= last_mark);
+}
+
 } // namespace
 
 std::string escaped(std::string_view text) {
@@ -43,6 +53,57 @@ std::string escaped(std::string_view text) {
             html += text.substr(0, length);
         }
         text.remove_prefix(std::max<std::size_t>(1, length));
+    }
+    return html;
+}
+
+std::string breakable(std::string_view of) {
+    constexpr std::size_t longest_word = 24; // letters
+    const auto unbroken = with_unbroken_numbers(of);
+    std::string_view text{unbroken};
+    std::string html, piece;
+    std::size_t letters = 0;
+    int isolates = 0; // that are open
+    const auto flush = [&] {
+        html += escaped(piece);
+        piece.clear();
+    };
+    while (!text.empty()) {
+        const auto length = std::max<std::size_t>(1, utf8_length(text));
+        if (text.front() == '\n') {
+            flush();
+            html += "<br>";
+            letters = 0;
+            text.remove_prefix(1);
+            continue;
+        }
+        const auto letter = utf8_letter(text.substr(0, length));
+        if (letter == isolate_begin || (letter == isolate_end && isolates > 0)) {
+            flush();
+            html += letter == isolate_begin ? "<bdi>" : "</bdi>";
+            isolates += letter == isolate_begin ? 1 : -1;
+            text.remove_prefix(length);
+            continue;
+        }
+        if (const auto unit = slashed_unit_at_start(text); unit > 0) {
+            flush();
+            html += fmt::format("<span class=\"nw\">{}</span>", text.substr(0, unit));
+            letters += unit;
+            text.remove_prefix(unit);
+            continue;
+        }
+        letters = text.front() == ' ' ? 0 : letters + 1;
+        if (letters > longest_word && may_follow_break(letter)) {
+            flush();
+            html += "<wbr>";
+            letters = 1;
+        }
+        piece += text.substr(0, length);
+        text.remove_prefix(length);
+    }
+    flush();
+    for (; isolates > 0; --isolates) {
+        html += "</bdi>";
     }
     return html;
 }
@@ -78,16 +139,17 @@ std::string table_html(const document::Table& table,
     constexpr std::size_t rows_that_stay_together = 12; // on paper; longer tables are split
     constexpr std::size_t most_on_a_phone = 8;          // columns, with a margin for a tablet
     const auto* const kind = table.rows.size() > rows_that_stay_together ? "wide long" : "wide";
-    auto html = fmt::format("<div class=\"{1}\" role=\"region\" aria-label=\"{0}\" "
-                            "tabindex=\"0\"><table{2}>\n<caption>{0}</caption>\n<thead><tr>",
-                            escaped(table.caption),
+    auto html = fmt::format("<div class=\"{}\" role=\"region\" aria-label=\"{}\" "
+                            "tabindex=\"0\"><table{}>\n<caption>{}</caption>\n<thead><tr>",
                             kind,
+                            escaped(table.caption),
                             !table.stacks                            ? ""
                             : table.columns.size() > most_on_a_phone ? " class=\"stack many\""
-                                                                     : " class=\"stack\"");
+                                                                     : " class=\"stack\"",
+                            breakable(table.caption));
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         html += fmt::format(
-            "<th scope=\"col\"{}>{}</th>", class_of(i), escaped(table.columns[i].title));
+            "<th scope=\"col\"{}>{}</th>", class_of(i), breakable(table.columns[i].title));
     }
     html += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {

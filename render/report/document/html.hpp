@@ -14,6 +14,10 @@ namespace macadam {
 /// bytes that are not UTF-8 become the replacement character, and controls of direction go.
 std::string escaped(std::string_view text);
 
+/// Escapes text of an element. Lines break within words only if these are longer than a column, and
+/// never between numbers and their units; '\n' becomes a break, isolated names remain so.
+std::string breakable(std::string_view of);
+
 /// Encodes bytes by RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 

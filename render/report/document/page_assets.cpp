@@ -39,7 +39,7 @@ li{margin:.25rem 0}
 .key dt{font-size:.8125rem;line-height:1.3}
 .key dd{margin:.15rem 0 0}
 .key b{display:block;white-space:nowrap;font-size:1.35rem;line-height:1.2;font-weight:650;font-variant-numeric:tabular-nums}
-.key span{display:block;font-size:.8125rem;line-height:1.35;color:var(--quiet);font-variant-numeric:tabular-nums}
+.key dd>span{display:block;font-size:.8125rem;line-height:1.35;color:var(--quiet);font-variant-numeric:tabular-nums}
 .wide{overflow-x:auto;margin:1rem 0}
 .wide:focus-visible{outline:2px solid var(--edge);outline-offset:2px}
 table{border-collapse:collapse;font-size:.9rem;line-height:1.35;font-variant-numeric:tabular-nums}
@@ -50,7 +50,7 @@ thead th{vertical-align:bottom;font-size:.8125rem;font-weight:600;color:var(--qu
 tbody th{font-weight:500}
 .n{text-align:right;white-space:nowrap}
 thead .n{white-space:normal}
-.nw,.key .nw{display:inline;white-space:nowrap}
+.nw{white-space:nowrap}
 .all th,.all td{font-weight:650;border-bottom:0}
 .swatch{width:.85em;height:.85em;margin-right:.5em;vertical-align:-.06em}
 .bar{stroke:var(--edge);stroke-width:.6}
@@ -86,8 +86,7 @@ nav li{margin:0;white-space:nowrap;font-size:.875rem}
 nav a{color:var(--quiet);text-decoration:none}
 nav a:hover,nav a[aria-current]{color:var(--ink);text-decoration:underline}
 details,.cards figure{scroll-margin-top:3.2rem}
-.overview{display:grid;gap:1.5rem;align-items:center}
-.overview>*{min-width:0}
+.overview{margin:1.5rem 0}
 .strip{display:block;width:100%;height:auto}
 .strip text,.cards .histogram text{fill:var(--quiet)}
 .cards .histogram{margin:.35rem 0 0}
@@ -101,7 +100,10 @@ th[aria-sort=descending] button::after{content:" \25BC"}
 .save:hover{color:var(--ink);border-color:var(--quiet)}
 @media screen and (min-width:34.01rem) and (max-width:54rem){.key{grid-template-columns:repeat(6,1fr)}
 .key div{grid-column:span 2}.key div:nth-last-child(-n+2){grid-column:span 3}}
-@media screen and (min-width:58rem){.overview{grid-template-columns:minmax(0,3fr) minmax(0,2fr)}}
+@media print,screen and (min-width:58rem){
+.overview{display:grid;grid-template-columns:minmax(0,min(60%,26rem*var(--shape))) minmax(0,1fr);grid-template-rows:auto 1fr;gap:0 1.75rem}
+.overview>*{min-width:0;margin:0}.overview .map{grid-column:1;grid-row:1/3}
+.overview .legend,.overview .histogram{grid-column:2}.overview .histogram{margin-top:1.5rem}}
 @media screen and (min-width:82rem){body{max-width:80rem;padding-left:15rem;position:relative}
 nav{position:fixed;top:0;bottom:0;width:12.5rem;margin-left:-14rem;overflow-y:auto;border:0;padding-top:1.6rem}
 nav ol{display:block}nav li{white-space:normal;padding:.3rem 0}}
@@ -109,6 +111,7 @@ nav ol{display:block}nav li{white-space:normal;padding:.3rem 0}}
 
 constexpr const char* on_a_phone = R"(
 @media screen and (max-width:44rem){.else{display:none}.phone{display:inline}.strip{min-width:42rem}}
+@media screen and (max-width:44rem){details:not([open])>summary{margin:.7rem 0;padding-top:.85rem}}
 @media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
 .key{grid-template-columns:1fr 1fr;gap:.5rem}.key div:last-child:nth-child(odd){grid-column:1/-1}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
 @media screen and (max-width:24rem){th,td{padding:.35rem .2rem}}
@@ -124,7 +127,7 @@ tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-grou
 .key{grid-template-columns:repeat(3,1fr);gap:.5rem}.key b{font-size:14pt}
 .cards{grid-template-columns:1fr 1fr 1fr;gap:.8rem}.cards figcaption{font-size:8.5pt}
 .map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}
-nav,.save{display:none}summary{list-style:none;break-after:avoid}.overview{grid-template-columns:3fr 2fr}.strip{break-inside:avoid}}
+nav,.save{display:none}summary{list-style:none;break-after:avoid}.strip{break-inside:avoid}}
 )";
 
 /// Returns rules that turn rows into blocks of titles and values on screens too narrow for columns.

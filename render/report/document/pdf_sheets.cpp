@@ -1,6 +1,7 @@
 #include "render/report/document/pdf_sheets.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/scene/isolated_text.hpp"
 
 #include <fmt/format.h>
 
@@ -243,7 +244,7 @@ int PdfSheets::outline(const std::string& title, int above) const {
     return cairo_pdf_surface_add_outline(
         surface_.get(),
         above,
-        title.c_str(),
+        without_direction_controls(title).c_str(),
         fmt::format("page={} pos=[{:.1f} {:.1f}]", page_, left_pt(), y_pt_).c_str(),
         above == CAIRO_PDF_OUTLINE_ROOT ? CAIRO_PDF_OUTLINE_FLAG_OPEN
                                         : cairo_pdf_outline_flags_t{});
@@ -252,7 +253,7 @@ int PdfSheets::outline(const std::string& title, int above) const {
 int PdfSheets::outline_to(const std::string& id, const std::string& title, int above) const {
     return cairo_pdf_surface_add_outline(surface_.get(),
                                          above,
-                                         title.c_str(),
+                                         without_direction_controls(title).c_str(),
                                          ("dest=" + quoted(id)).c_str(),
                                          cairo_pdf_outline_flags_t{});
 }

@@ -1,6 +1,7 @@
 #include "render/report/document/pdf_text.hpp"
 
 #include "estimator/common/utf8.hpp"
+#include "render/scene/isolated_text.hpp"
 #include "render/scene/unbroken_numbers.hpp"
 #include "render/text/pdf_families.hpp"
 
@@ -22,7 +23,8 @@ struct FreeAttributes {
     void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
 };
 
-/// Returns valid UTF-8 without control characters except line breaks, nor ones of direction.
+/// Returns valid UTF-8 without control characters except line breaks, nor ones of direction except
+/// isolates of names.
 std::string cleaned(const std::string& text) {
     char* const valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
     const std::string all{valid};
@@ -33,7 +35,8 @@ std::string cleaned(const std::string& text) {
         const auto first = static_cast<unsigned char>(letter.front());
         if (first != '\n' && (first < 0x20 || first == 0x7F)) {
             clean += ' ';
-        } else if (!is_bidi_control(utf8_letter(letter))) {
+        } else if (const auto code = utf8_letter(letter);
+                   code == isolate_begin || code == isolate_end || !is_bidi_control(code)) {
             clean += letter;
         }
         rest.remove_prefix(letter.size());
@@ -67,6 +70,15 @@ void add_look(PangoAttrList* list, const Span& span, std::size_t from, std::size
     }
 }
 
+/// Lets no line end within a unit.
+void keep_units_whole(PangoAttrList* list, std::string_view text) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (const auto length = slashed_unit_at_start(text.substr(at)); length > 0) {
+            insert(list, pango_attr_allow_breaks_new(FALSE), at, at + length);
+        }
+    }
+}
+
 } // namespace
 
 PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, double width_pt)
@@ -74,6 +86,9 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
     auto* const context = pango_layout_get_context(layout_.get());
     pango_cairo_context_set_resolution(context, 72); // one unit of the page is a point
     pango_context_set_round_glyph_positions(context, FALSE);
+    // A text that begins with an Arabic name still runs from left to right, as on pages.
+    pango_context_set_base_dir(context, PANGO_DIRECTION_LTR);
+    pango_layout_set_auto_dir(layout_.get(), FALSE);
     const std::unique_ptr<PangoFontDescription, FreeFont> font{pango_font_description_new()};
     pango_font_description_set_size(font.get(), pango_units_from_double(type.size_pt));
     pango_font_description_set_weight(font.get(),
@@ -91,6 +106,7 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
         target_ = span.target.empty() ? target_ : span.target;
         address_ = span.address.empty() ? address_ : span.address;
     }
+    keep_units_whole(looks.get(), text);
     pango_font_description_set_family(font.get(), pdf_families_for(text).c_str());
     pango_layout_set_font_description(layout_.get(), font.get());
     insert(looks.get(), pango_attr_font_features_new("tnum=1"), 0, text.size());
@@ -114,6 +130,10 @@ double PdfText::height_pt() const {
     int height = 0;
     pango_layout_get_size(layout_.get(), nullptr, &height);
     return pango_units_to_double(height);
+}
+
+std::string PdfText::in_order_of_reading() const {
+    return without_direction_controls(pango_layout_get_text(layout_.get()));
 }
 
 bool PdfText::is_reordered() const {

@@ -36,7 +36,7 @@ public:
     double width_pt() const;   ///< of its widest line
     double height_pt() const;  ///< of all lines
     bool is_reordered() const; ///< some of its letters run from right to left
-    std::string in_order_of_reading() const { return pango_layout_get_text(layout_.get()); }
+    std::string in_order_of_reading() const;
     PangoLayout* layout() const { return layout_.get(); }
     std::uint32_t rgb() const { return rgb_; }
     const std::string& target() const { return target_; }   ///< "" = no link within the document

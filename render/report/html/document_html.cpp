@@ -2,9 +2,6 @@
 #include "render/report/document/page_assets.hpp"
 #include "render/report/html/drawing_html.hpp"
 #include "render/report/report.hpp"
-#include "render/scene/unbroken_numbers.hpp"
-
-#include "estimator/common/utf8.hpp"
 
 #include <fmt/format.h>
 
@@ -15,47 +12,6 @@ namespace macadam {
 using namespace document;
 
 namespace {
-
-/// Tests whether a break may be added before a letter. Marks belong to the letter before them; the
-/// scripts from Hebrew on have marks, joined letters, or words without spaces, where pages break
-/// them by rules of their own.
-bool may_follow_break(char32_t letter) {
-    constexpr char32_t first_mark = 0x300, last_mark = 0x36F, hebrew = 0x590;
-    return letter < hebrew && !(first_mark <= letter && letter <= last_mark);
-}
-
-/// Escapes text and allows breaks only in words longer than a column; '\n' becomes a break.
-std::string breakable(std::string_view of) {
-    constexpr std::size_t longest_word = 24; // letters
-    const auto unbroken = with_unbroken_numbers(of);
-    std::string_view text{unbroken};
-    std::string html, piece;
-    std::size_t letters = 0;
-    const auto flush = [&] {
-        html += escaped(piece);
-        piece.clear();
-    };
-    while (!text.empty()) {
-        const auto length = std::max<std::size_t>(1, utf8_length(text));
-        if (text.front() == '\n') {
-            flush();
-            html += "<br>";
-            letters = 0;
-            text.remove_prefix(1);
-            continue;
-        }
-        letters = text.front() == ' ' ? 0 : letters + 1;
-        if (letters > longest_word && may_follow_break(utf8_letter(text.substr(0, length)))) {
-            flush();
-            html += "<wbr>";
-            letters = 1;
-        }
-        piece += text.substr(0, length);
-        text.remove_prefix(length);
-    }
-    flush();
-    return html;
-}
 
 std::string html_of(const Span& span) {
     auto html = breakable(span.text);
@@ -132,6 +88,11 @@ std::string html_of(const Cell& cell) {
                        bars);
 }
 
+/// Returns width / height.
+double shape_of(const ReportPicture& picture) {
+    return static_cast<double>(picture.width_px) / std::max(1, picture.height_px);
+}
+
 std::string picture_html(const ReportPicture& picture, const std::string& words) {
     const auto image = [&](const char* look, const std::vector<std::uint8_t>& png) {
         return fmt::format("<img{} width=\"{}\" height=\"{}\" alt=\"{}\" "
@@ -166,8 +127,8 @@ std::string block_html(const KeyNumbers& keys) {
     std::string html = "<dl class=\"key\">\n";
     for (const auto& [what, value, more] : keys.numbers) {
         html += fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n",
-                            escaped(what),
-                            escaped(with_unbroken_numbers(value)),
+                            breakable(what),
+                            breakable(value),
                             html_of(more));
     }
     return html + "</dl>\n";
@@ -178,15 +139,16 @@ std::string block_html(const Table& table) {
 }
 
 std::string block_html(const Legend& legend) {
-    auto html = fmt::format("<ul class=\"legend\" aria-label=\"{0}\">\n<li class=\"quiet\">{0}"
+    auto html = fmt::format("<ul class=\"legend\" aria-label=\"{}\">\n<li class=\"quiet\">{}"
                             "</li>\n",
-                            escaped(legend.title));
+                            escaped(legend.title),
+                            breakable(legend.title));
     for (const auto& [rgb, name, range, dark_rgb] : legend.entries) {
-        html += fmt::format("<li>{}{}{}</li>\n",
-                            rgb ? swatch_html(*rgb, dark_rgb) : "<span class=\"road\"></span>",
-                            escaped(name),
-                            range.empty() ? ""
-                                          : " <span class=\"quiet\">" + escaped(range) + "</span>");
+        html += fmt::format(
+            "<li>{}{}{}</li>\n",
+            rgb ? swatch_html(*rgb, dark_rgb) : "<span class=\"road\"></span>",
+            breakable(name),
+            range.empty() ? "" : " <span class=\"quiet\">" + breakable(range) + "</span>");
     }
     return html + "</ul>\n";
 }
@@ -196,15 +158,14 @@ std::string block_html(const MapFigure& map) {
                            ? fmt::format("<span class=\"scale\"><span style=\"width:{:.2f}%\">"
                                          "</span>{}</span>",
                                          map.scale_percent,
-                                         escaped(map.scale))
+                                         breakable(map.scale))
                            : "";
     return fmt::format("<figure class=\"map\" style=\"--shape:{:.3f}\">{}<figcaption>{}{}"
                        "</figcaption></figure>\n",
-                       static_cast<double>(map.picture.width_px) /
-                           std::max(1, map.picture.height_px),
+                       shape_of(map.picture),
                        picture_html(map.picture, map.words),
                        scale,
-                       escaped(map.caption));
+                       breakable(map.caption));
 }
 
 /// Returns the photos of a card; "" without any.
@@ -221,7 +182,7 @@ std::string photos_html(const std::vector<Photo>& photos) {
                             photo.height_px,
                             escaped(photo.words),
                             base64(photo.jpeg),
-                            escaped(photo.caption));
+                            breakable(photo.caption));
     }
     return html + "</div>\n";
 }
@@ -238,7 +199,7 @@ std::string block_html(const Cards& cards) {
                         escaped(card.id),
                         picture_html(card.picture, card.words),
                         card.chart ? block_html(*card.chart) : "",
-                        escaped(card.title),
+                        breakable(card.title),
                         html_of(card.text),
                         photos_html(card.photos));
     }
@@ -246,7 +207,8 @@ std::string block_html(const Cards& cards) {
 }
 
 std::string block_html(const Overview& overview) {
-    return fmt::format("<div class=\"overview\"><div>{}{}</div>{}</div>\n",
+    return fmt::format("<div class=\"overview\" style=\"--shape:{:.3f}\">{}{}{}</div>\n",
+                       shape_of(overview.map.picture),
                        block_html(overview.legend),
                        block_html(overview.map),
                        overview.distribution ? block_html(*overview.distribution) : "");
@@ -265,7 +227,7 @@ std::string section_html(const DocumentSection& section, std::size_t number) {
     return fmt::format("<section><details open id=\"section-{}\"><summary><h2>{}</h2></summary>\n{}"
                        "</details></section>\n",
                        number,
-                       escaped(section.title),
+                       breakable(section.title),
                        blocks_html(section));
 }
 
@@ -277,7 +239,7 @@ std::string contents_html(const Document& document) {
     std::size_t number = 0;
     for (const auto& section : document.sections) {
         html += fmt::format(
-            "<li><a href=\"#section-{}\">{}</a></li>\n", ++number, escaped(section.title));
+            "<li><a href=\"#section-{}\">{}</a></li>\n", ++number, breakable(section.title));
     }
     return html + "</ol></nav>\n";
 }
@@ -324,7 +286,7 @@ std::string html_of(const Document& document) {
     html += "</main>\n";
     for (const auto& section : document.end) {
         html += fmt::format(
-            "<footer>\n<h2>{}</h2>\n{}</footer>\n", escaped(section.title), blocks_html(section));
+            "<footer>\n<h2>{}</h2>\n{}</footer>\n", breakable(section.title), blocks_html(section));
     }
     return html + fmt::format("<script>{}</script>\n</body>\n</html>\n", page_script());
 }

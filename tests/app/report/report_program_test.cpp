@@ -113,7 +113,9 @@ TEST_F(ReportProgram, SaysTheMeanOfTheExportedSegments) {
         sum += metres * number(rows, i, "iri");
         poor_m += number(rows, i, "iri") > 170 / 63.36 ? metres : 0;
     }
-    EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.2f}\u00A0mm/m</b>", sum / length_m)));
+    EXPECT_THAT(html,
+                HasSubstr(fmt::format("<b>{:.2f}\u00A0<span class=\"nw\">mm/m</span></b>",
+                                      sum / length_m)));
     EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.2f}\u00A0km</b>", length_m / 1000)));
     EXPECT_THAT(html, HasSubstr(fmt::format("<b>{:.1f}\u00A0%</b>", 100 * poor_m / length_m)));
     EXPECT_THAT(html, HasSubstr("<h1>A &lt;road&gt;</h1>"));
@@ -158,7 +160,7 @@ TEST_F(ReportProgram, ShowsPhotosAtTheWorstSectionsAndTellsOfTheOthers) {
         ++shown;
     }
     EXPECT_EQ(shown, 3U);
-    EXPECT_THAT(html, HasSubstr("Photo of 2026-03-12, 2 m from the road"));
+    EXPECT_THAT(html, HasSubstr("Photo of 2026-03-12, 2\u00A0m from the road"));
     EXPECT_THAT(html, Not(HasSubstr("500-m")));
     EXPECT_THAT(shown_in("photos.pdf").substr(0, 5), "%PDF-");
 }
@@ -174,8 +176,9 @@ TEST_F(ReportProgram, ShowsPhotosByChainageOnAStripChart) {
         {"report", store_, "-o", out("way.html"), "--way", "1", "--photos", photos.string()});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("photos: 1 of 1 shown\n"));
-    EXPECT_THAT(read_file(out("way.html")),
-                ::testing::ContainsRegex("At [0-9]+ m: Photo of 2026-03-12, 0 m from the road"));
+    EXPECT_THAT(
+        read_file(out("way.html")),
+        ::testing::ContainsRegex("At [0-9]+\u00A0m: Photo of 2026-03-12, 0\u00A0m from the road"));
 }
 
 TEST_F(ReportProgram, RefusesPhotosThatAreNoFolderBeforeItReadsAnything) {

@@ -26,6 +26,7 @@ using ::testing::AllOf;
 using ::testing::AnyOf;
 using testing::between;
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using testing::fhwa;
@@ -87,6 +88,50 @@ TEST(Report, KeepsNumbersWithTheirUnits) {
     EXPECT_EQ(with_unbroken_numbers("4 min, 3 cars in 2 in"), "4 min, 3 cars in 2 in");
     EXPECT_EQ(with_unbroken_numbers("5 mm – 6 mm"), "5\u00A0mm – 6\u00A0mm");
     EXPECT_EQ(with_unbroken_numbers("12 "), "12 ");
+}
+
+/// Returns the text of a page that may go over several lines, with marks of what stays on one.
+std::string flowing_text(std::string html) {
+    for (const std::string element : {"title", "style", "script", "svg"}) {
+        for (auto at = html.find("<" + element); at != std::string::npos;
+             at = html.find("<" + element, at)) {
+            html.erase(at, html.find("</" + element + ">", at) - at);
+        }
+    }
+    for (const std::string unit : {"mm/m", "in/mi"}) {
+        testing::replace_all(html, "<span class=\"nw\">" + unit + "</span>", "[unit]");
+    }
+    for (auto at = html.find('<'); at != std::string::npos; at = html.find('<', at)) {
+        html.replace(at, html.find('>', at) + 1 - at, "|");
+    }
+    return html;
+}
+
+TEST(Report, EndsNoLineBetweenANumberAndItsUnitNorWithinAUnit) {
+    auto report = testing::changed_town();
+    report.title = "Roads above 2.5 mm/m";
+    report.worst[0].stretch.name = "Road of 3 km";
+    for (const auto unit : {IriUnit::mm_per_m, IriUnit::in_per_mi}) {
+        report.wording.unit = unit;
+        const auto text = flowing_text(report_html(report));
+        EXPECT_THAT(text, HasSubstr("[unit]"));
+        EXPECT_THAT(text, Not(HasSubstr("mm/m")));
+        EXPECT_THAT(text, Not(HasSubstr("in/mi")));
+        EXPECT_THAT(text, Not(ContainsRegex(R"([0-9] (%|km|m|mm|ft|mi|\[unit\])[^a-z])")));
+    }
+}
+
+TEST(Report, DrawsNoNumberIntoAnArabicName) {
+    auto report = town();
+    report.worst[0].stretch.name = "شارع الملك";
+    report.worst[1].stretch.name =
+        "Rue \u202Eelur\u2066"; // neither override nor open isolate stays
+    const auto html = page_of(report);
+    EXPECT_THAT(html, HasSubstr("<bdi>شارع الملك</bdi></a></b> (140 m"));
+    EXPECT_THAT(html, HasSubstr(">Rue elur</td>"));
+    EXPECT_THAT(html, Not(HasSubstr("\u2068")));
+    report.title = "\u2068\u2068open\u2069\u2069\u2069";
+    EXPECT_EQ(flaw_in(report_html(report)), "");
 }
 
 TEST(Report, BreaksNoThaiSyllableNorMarkOffItsLetter) {
@@ -194,7 +239,7 @@ TEST(Report, BeginsWithWhatMatters) {
 
 TEST(Report, ShowsMapAndDistributionTogetherBeforeItsSections) {
     const auto html = page_of(town());
-    const auto overview = between(html, "<div class=\"overview\">", "</header>");
+    const auto overview = between(html, "<div class=\"overview\"", "</header>");
     ASSERT_THAT(overview, SizeIs(1));
     EXPECT_THAT(overview[0],
                 AllOf(HasSubstr("<figure class=\"map\""), HasSubstr("<svg class=\"histogram\"")));

@@ -17,11 +17,20 @@ between(const std::string& text, std::string_view before, std::string_view after
     return found;
 }
 
-/// Returns a text with plain spaces in place of no-break spaces.
+/// Replaces every occurrence of a piece of text.
+inline void replace_all(std::string& text, std::string_view piece, std::string_view by) {
+    for (auto at = text.find(piece); at != std::string::npos;
+         at = text.find(piece, at + by.size())) {
+        text.replace(at, piece.size(), by);
+    }
+}
+
+/// Returns a text with plain spaces in place of no-break spaces, and without marks of units whose
+/// lines do not break.
 inline std::string with_plain_spaces(std::string text) {
-    constexpr std::string_view no_break = "\u00A0";
-    for (auto at = text.find(no_break); at != std::string::npos; at = text.find(no_break, at)) {
-        text.replace(at, no_break.size(), " ");
+    replace_all(text, "\u00A0", " ");
+    for (const std::string unit : {"mm/m", "in/mi"}) {
+        replace_all(text, "<span class=\"nw\">" + unit + "</span>", unit);
     }
     return text;
 }

@@ -209,6 +209,24 @@ TEST_F(ReportPdf, CutsNoTextOffAndPutsNoneOnAnother) {
     }
 }
 
+TEST_F(ReportPdf, EndsNoLineWithinAUnit) {
+    Document document;
+    document.language = "en";
+    document.title = "Lines of all lengths";
+    document::Bullets lines;
+    for (std::size_t letters = 1; letters < 120; ++letters) {
+        lines.items.emplace_back(std::string(letters, 'i') +
+                                 " 170 in/mi or 2.7 mm/m, for instance");
+    }
+    document.sections.push_back({"Lines", {lines}});
+    const auto file = testing::fresh_folder() / "lines.pdf";
+    testing::write_file(file, pdf_of(document, {}));
+    const auto text = printed(fmt::format("pdftotext -layout '{}' -", file.string()));
+    EXPECT_THAT(text, HasSubstr("2.7"));
+    EXPECT_THAT(text, Not(HasSubstr("/\n")));
+    EXPECT_THAT(text, Not(HasSubstr("170\n")));
+}
+
 TEST_F(ReportPdf, EmbedsEveryFont) {
     std::istringstream fonts{by("pdffonts", whole_report())};
     std::string line;
