@@ -311,6 +311,17 @@ TEST_F(ReportPdf, SaysArabicInTheOrderOfReading) {
     EXPECT_EQ(by(said, whole_report()), "");
 }
 
+TEST_F(ReportPdf, BeginsATextThatBeginsWithAnArabicNameAtTheLeft) {
+    auto report = whole_report();
+    report.title = "شارع الملك";
+    const auto pages = pages_of(by("pdftotext -bbox", report));
+    ASSERT_THAT(pages, Not(IsEmpty()));
+    const auto title = std::ranges::max_element(
+        pages[0], {}, [](const Word& word) { return word.bottom - word.top; });
+    ASSERT_NE(title, pages[0].end());
+    EXPECT_LT(title->right, a4.width_pt / 2); // of a word or two
+}
+
 TEST_F(ReportPdf, GivesHanCharactersTheShapesOfTheLettersBesideThem) {
     const auto fonts = [this](const std::string& title) {
         auto report = whole_report();
