@@ -204,7 +204,8 @@ void MapPlan::place_legend(const Legend& legend) {
         placement_.corner = {legend_room_->left, legend_room_->top};
         return;
     }
-    if (legend.entries.empty() || (!placement_.makes_map_smaller && empty_share() < much_empty)) {
+    const bool has_corner = !placement_.makes_map_smaller;
+    if (legend.entries.empty() || (has_corner && empty_share() < much_empty)) {
         return;
     }
     auto band =
@@ -212,7 +213,8 @@ void MapPlan::place_legend(const Legend& legend) {
     if (!band && placement_.hides_roads) {
         band = legend_strip(legend, layout_, setter_);
     }
-    if (band) {
+    const bool is_column = band && band->map.right < layout_.map.right;
+    if (band && !(has_corner && is_column)) { // a column would be mostly empty page
         layout_.map = band->map;
         placement_ = placement_of(scene_, {}, layout_, setter_);
         placement_.card = band->card;

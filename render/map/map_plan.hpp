@@ -45,9 +45,9 @@ public:
     GeoBox ground() const;
 
     /// Sets the roads and the events on them; roads too minor for the map's scale are left out. The
-    /// legend takes a corner without roads, or a band of a sheet of which a quarter would be empty,
-    /// unless a background is set; if there is neither, the map makes room for it and needs the
-    /// roads of a larger ground.
+    /// legend takes a corner without roads, or a band below of a sheet of which a quarter would be
+    /// empty, unless a background is set; if there is neither, the map makes room for it and needs
+    /// the roads of a larger ground.
     void set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events = {});
 
     /// Returns the level of the background that serves the map's scale.

@@ -173,6 +173,26 @@ TEST(Sheet, OfPaperIsFilledWithDetailsBelowASquareCity) {
     EXPECT_FALSE((MapPlan{square, {}, a5}.detail_room()));
 }
 
+TEST(Sheet, HasTheLegendInABandBelowASquareCityButNoColumnBesideIt) {
+    auto square = sheet(10'000, 10'000);
+    for (double north_m = -4000; north_m <= 4000; north_m += 500) { // all corners are free
+        square.lines.push_back(street(at(-3000, north_m), at(3000, north_m)));
+    }
+    square.lines.push_back(street(at(-5000, 0), at(5000, 0)));
+    const auto is_page = [&](const PictureSize& size, double x_share, double y_share) {
+        MapPlan plan{square, {}, size};
+        std::vector<std::uint8_t> rgb;
+        plan.draw([&](auto rows) { rgb.insert(rgb.end(), rows.begin(), rows.end()); });
+        const auto i = 3 * (std::size_t(y_share * size.height_px) * std::size_t(size.width_px) +
+                            std::size_t(x_share * size.width_px));
+        return rgb[i] == 0xff && rgb[i + 1] == 0xff && rgb[i + 2] == 0xff;
+    };
+    constexpr PictureSize portrait{.width_px = 700, .height_px = 1100, .px_per_inch = 96};
+    EXPECT_TRUE(is_page(portrait, 0.99, 0.92));
+    constexpr PictureSize landscape{.width_px = 1100, .height_px = 700, .px_per_inch = 96};
+    EXPECT_FALSE(is_page(landscape, 0.99, 0.5));
+}
+
 TEST(Sheet, HasNoDetailsWhereTheDataFillsItOrIsLargeAlready) {
     EXPECT_FALSE((MapPlan{filled("usual", 8000, 6000).scene, {}, usual}.detail_room()));
     EXPECT_FALSE((MapPlan{sheet(100, 1000), {}, usual}.detail_room())); // 1:4,000
