@@ -299,7 +299,7 @@ TEST(PdfMap, SetsAnyScriptAndTextThatIsNone) {
 }
 
 TEST(PdfMap, WritesHanCharactersInTheShapesOfTheLettersBesideThem) {
-    const auto folder = fresh_folder();
+    const auto folder = test_folder();
     const auto fonts_of = [&](const std::string& title) {
         auto scene = crossing();
         scene.title = title;
