@@ -9,6 +9,7 @@
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/connection/import_lock.hpp"
 #include "storage/store/server/reader_rights.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
 
 #include <fmt/format.h>
 
@@ -23,9 +24,26 @@ std::int64_t now_utc_ms() {
     return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
+RoadStore opened_to_publish(const std::filesystem::path& file, const Console& console) {
+    if (!is_server_address(file.string())) {
+        return opened_store(file, console);
+    }
+    console.detail(fmt::format("opening {}", file.string()));
+    return RoadStore{open_replica_to_publish(
+        file.string(), wait_policy_for(file, console), console.progress("reading drives"))};
+}
+
+/// All roads, of which the copy of a part does not hold all. While it is open, they stay the same.
+RoadNetwork
+roads_of(const RoadStore& store, const std::filesystem::path& file, const Console& console) {
+    return is_server_address(file.string())
+               ? load_or_build_network(opened_for_import(file, console).map)
+               : load_or_build_network(store);
+}
+
 void run_publish(const Arguments& arguments, const Console& console) {
     const auto file = file_or_server(arguments);
-    auto store = opened_store(file, console);
+    auto store = opened_to_publish(file, console);
     if (is_import_running(file)) {
         throw InputError{
             fmt::format("{}: an import is running; a publication holds for a month, so "
@@ -34,7 +52,7 @@ void run_publish(const Arguments& arguments, const Console& console) {
     }
     const auto progress = console.progress("publishing");
     const auto done =
-        store.maintenance.publish(load_or_build_network(store), now_utc_ms(), progress);
+        store.maintenance.publish(roads_of(store, file, console), now_utc_ms(), progress);
     if (arguments.flag("--json")) {
         print(json_of(std::optional{done.publication}) + "\n");
     } else {

@@ -64,6 +64,8 @@ struct StoreConnection {
     std::function<void(const Progress&)> after_write; ///< see written()
     /// Of a copy of a part of a database: times of the first and last pass of the whole.
     std::optional<ObservedPeriod> seen_in_whole{};
+    /// Of a copy of a part of a database that is made to publish.
+    std::optional<PublishedPart> part_to_publish{};
     bool published_alone = false; ///< see StoreReader::shows_published_alone()
 };
 

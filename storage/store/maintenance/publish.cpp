@@ -46,8 +46,11 @@ Published StoreMaintenance::publish(const RoadNetwork& roads,
                             utc_text(next_month_ms(now_utc_ms)).substr(0, month_letters)));
         }
     };
-    const PublicationWork work{
-        &roads, &*store_->key, &store_->classes(), store_->segments_per_chunk()};
+    const PublicationWork work{&roads,
+                               &*store_->key,
+                               &store_->classes(),
+                               store_->segments_per_chunk(),
+                               store_->part_to_publish ? &*store_->part_to_publish : nullptr};
     StagedPublication staged{database};
     const auto compute = [&] {
         Transaction snapshot{database, Transaction::Kind::read};

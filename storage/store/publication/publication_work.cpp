@@ -383,7 +383,12 @@ private:
 
 std::size_t
 stage_pending(Database& database, const PublicationWork& work, const Progress& progress) {
-    const auto chunks = driven_chunks(database);
+    auto chunks = driven_chunks(database);
+    if (work.part != nullptr) {
+        std::erase_if(chunks, [&](std::int64_t chunk) {
+            return !std::ranges::binary_search(work.part->chunks, chunk);
+        });
+    }
     PublicationMaker maker{database, work, progress};
     std::size_t changed = 0;
     for (std::size_t done = 0; done < chunks.size();) {

@@ -5,6 +5,7 @@
 #include "mapping/style/iri_class.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/records/publication.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,7 @@ struct PublicationWork {
     const PrivacyKey* key;
     const ClassTable* classes;
     std::int64_t segments_per_chunk;
+    const PublishedPart* part = nullptr; ///< null: the database is whole
 };
 
 /// Stages the publication of pending passes in the tables of StagedPublication, in batches that

@@ -4,13 +4,12 @@
 
 #include <sqlite3.h>
 
-#include <cmath>
-
 namespace macadam {
 namespace {
 
 constexpr const char* create_tables = R"(
 CREATE TEMP TABLE staged_chunk (chunk INTEGER PRIMARY KEY NOT NULL);
+CREATE TEMP TABLE staged_part (chunk INTEGER PRIMARY KEY NOT NULL);
 CREATE TEMP TABLE staged_driven (segment INTEGER PRIMARY KEY NOT NULL);
 CREATE TEMP TABLE staged_state AS SELECT * FROM main.published_state WHERE 0;
 CREATE TEMP TABLE staged_until AS SELECT * FROM main.published_until WHERE 0;
@@ -21,6 +20,7 @@ CREATE TEMP TABLE staged_event AS SELECT * FROM main.published_event WHERE 0;
 
 constexpr const char* clear_tables = R"(
 DELETE FROM temp.staged_chunk;
+DELETE FROM temp.staged_part;
 DELETE FROM temp.staged_driven;
 DELETE FROM temp.staged_state;
 DELETE FROM temp.staged_until;
@@ -31,6 +31,7 @@ DELETE FROM temp.staged_event;
 
 constexpr const char* drop_tables = R"(
 DROP TABLE IF EXISTS temp.staged_chunk;
+DROP TABLE IF EXISTS temp.staged_part;
 DROP TABLE IF EXISTS temp.staged_driven;
 DROP TABLE IF EXISTS temp.staged_state;
 DROP TABLE IF EXISTS temp.staged_until;
@@ -62,15 +63,26 @@ constexpr const char* withdraw_roads_that_are_no_more =
     " WHERE figure.segment = valid_from.segment AND figure.until_ms > valid_from.from_ms));"
     "DELETE FROM published_event WHERE segment NOT IN (SELECT fid FROM published_state)";
 
+// Lengths in micrometres, so that sums depend on no order.
+
 /// Driven segments that the publication omits.
 constexpr const char* left_out_segments =
-    "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0)"
+    "SELECT count(*), coalesce(sum(CAST((to_m - from_m) * 1e6 + 0.5 AS INTEGER)), 0)"
     " FROM temp.staged_driven AS driven CROSS JOIN segment ON segment.fid = driven.segment"
     " WHERE NOT EXISTS (SELECT 1 FROM published_state AS state WHERE state.fid = driven.segment)";
 
 constexpr const char* shown_segments =
-    "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM published_state AS state"
-    " CROSS JOIN segment ON segment.fid = state.fid";
+    "SELECT count(*), coalesce(sum(CAST((to_m - from_m) * 1e6 + 0.5 AS INTEGER)), 0)"
+    " FROM published_state AS state CROSS JOIN segment ON segment.fid = state.fid";
+
+PublishedTotal total_of(Database& database, const char* sql, const PublishedTotal& elsewhere) {
+    auto select = database.prepare(sql);
+    select.step();
+    return {elsewhere.segments + select.integer(0), elsewhere.length_um + select.integer(1)};
+}
+
+constexpr double um_per_m = 1e6;
+constexpr std::int64_t um_per_100_m = 100'000'000;
 
 std::int64_t rounded(std::int64_t count) {
     return published_count(static_cast<std::int32_t>(count));
@@ -89,12 +101,30 @@ StagedPublication::~StagedPublication() {
 void StagedPublication::compute(const PublicationWork& work, const Progress& progress) {
     auto& database = *database_;
     database.run(clear_tables);
-    reach_ = {database.number("SELECT coalesce(max(id), 0) FROM trip"),
-              database.number("SELECT coalesce(max(fid), 0) FROM segment")};
-    trips_ = database.number("SELECT count(*) FROM trip WHERE reference_ppm IS NULL");
-    cars_ = database.number("SELECT count(*) FROM vehicle");
+    reach_.last_trip = database.number("SELECT coalesce(max(id), 0) FROM trip");
+    if (work.part != nullptr) {
+        whole_ = *work.part;
+    } else {
+        whole_.last_segment = database.number("SELECT coalesce(max(fid), 0) FROM segment");
+        whole_.trips = database.number("SELECT count(*) FROM trip WHERE reference_ppm IS NULL");
+        whole_.cars = database.number("SELECT count(*) FROM vehicle");
+    }
+    reach_.last_segment = whole_.last_segment;
     database.run(stage_driven);
+    if (work.part != nullptr) {
+        leave_other_chunks(work.part->chunks);
+    }
     changed_ = stage_pending(database, work, progress);
+}
+
+/// Of passes over other chunks, the part holds some alone.
+void StagedPublication::leave_other_chunks(const std::vector<std::int64_t>& chunks) {
+    auto insert = database_->prepare("INSERT INTO temp.staged_part VALUES (?)");
+    for (const auto chunk : chunks) {
+        insert.run(chunk);
+    }
+    database_->run("DELETE FROM temp.staged_driven WHERE (SELECT strip FROM main.segment AS segment"
+                   " WHERE fid = staged_driven.segment) NOT IN (SELECT chunk FROM staged_part)");
 }
 
 Published StagedPublication::apply(const std::string& month) {
@@ -108,10 +138,8 @@ void StagedPublication::write_values() {
 }
 
 Publication StagedPublication::add_publication(const std::string& month) {
-    auto shown = database_->prepare(shown_segments);
-    shown.step();
-    auto left = database_->prepare(left_out_segments);
-    left.step();
+    const auto shown = total_of(*database_, shown_segments, whole_.shown_elsewhere);
+    const auto left = total_of(*database_, left_out_segments, whole_.left_elsewhere);
     database_
         ->prepare("INSERT INTO publication VALUES"
                   " ((SELECT coalesce(max(number), 0) + 1 FROM publication),"
@@ -119,12 +147,12 @@ Publication StagedPublication::add_publication(const std::string& month) {
         .run(month,
              reach_.last_trip,
              reach_.last_segment,
-             shown.integer(0),
-             shown.real(1),
-             (left.integer(0) + 9) / 10 * 10,
-             100 * std::ceil(left.real(1) / 100),
-             rounded(trips_),
-             rounded(cars_));
+             shown.segments,
+             static_cast<double>(shown.length_um) / um_per_m,
+             (left.segments + 9) / 10 * 10,
+             (left.length_um + um_per_100_m - 1) / um_per_100_m * 100,
+             rounded(whole_.trips),
+             rounded(whole_.cars));
     return *latest_publication(*database_);
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -34,14 +35,14 @@ public:
     Published apply(const std::string& month);
 
 private:
+    void leave_other_chunks(const std::vector<std::int64_t>& chunks);
     void write_values();
     Publication add_publication(const std::string& month);
 
     Database* database_;
     std::size_t changed_ = 0; ///< segments with new values
     PublicationReach reach_;
-    std::int64_t trips_ = 0;
-    std::int64_t cars_ = 0;
+    PublishedPart whole_; ///< totals of the database, and of chunks that it does not hold
 };
 
 } // namespace macadam

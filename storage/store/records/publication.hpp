@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -23,6 +24,24 @@ struct Publication {
     double left_out_km = 0;    ///< of those, rounded to tenths
     std::int32_t trips = 0;    ///< lower bound, rounded by published_count()
     std::int32_t vehicles = 0; ///< likewise
+    friend bool operator==(const Publication&, const Publication&) = default;
+};
+
+/// Number and length of segments.
+struct PublishedTotal {
+    std::int64_t segments = 0;
+    std::int64_t length_um = 0;
+};
+
+/// Part of a database from which its next publication is made, and what the rest adds to its
+/// totals.
+struct PublishedPart {
+    std::vector<std::int64_t> chunks{}; ///< that may change, ascending
+    std::int64_t last_segment = 0;      ///< row of the last segment of all
+    std::int64_t trips = 0;             ///< of cars, in all
+    std::int64_t cars = 0;              ///< in all
+    PublishedTotal shown_elsewhere{};     ///< published segments of other chunks
+    PublishedTotal left_elsewhere{};      ///< driven ones of other chunks that are not published
 };
 
 /// Data removed when a database of own cars became a crowd database.

@@ -31,7 +31,7 @@ TripRecord CrowdDrive::record() const {
 
 std::vector<Pass> CrowdDrive::passes() const {
     std::vector<Pass> passes;
-    for (std::int64_t way = 1; way <= roads; ++way) {
+    for (std::int64_t way = first_road; way < first_road + roads; ++way) {
         for (std::uint32_t index = 0; index < 10; ++index) {
             auto pass = passes_of(1).front();
             pass.segment = {way, true, index};

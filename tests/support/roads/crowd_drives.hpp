@@ -26,8 +26,9 @@ struct CrowdDrive {
     int car;
     std::int64_t utc_ms;
     IriUm iri_um = 2000;
-    bool reports_holes = false; ///< at 55 m of the first two roads
+    bool reports_holes = false; ///< at 55 m of roads 1 and 2
     int roads = 3;
+    int first_road = 1; ///< of these
 
     TripRecord record() const;
     std::vector<Pass> passes() const;

@@ -49,6 +49,10 @@ RoadStore EngineDatabase::maintain() const {
     return server_ ? RoadStore{open_server_replica(name_, {}, {})} : RoadStore::open(name_);
 }
 
+RoadStore EngineDatabase::to_publish() const {
+    return server_ ? RoadStore{open_replica_to_publish(name_, {}, {})} : maintain();
+}
+
 Forgotten EngineDatabase::forget(const ForgetRequest& request) const {
     return (server_ ? RoadStore{open_replica_to_forget(name_, request, {}, {})} : maintain())
         .maintenance.forget(request);

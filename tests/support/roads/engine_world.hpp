@@ -30,6 +30,8 @@ public:
     ImportStore import() const;
     StoreReader read(Audience audience = Audience::operator_) const;
     RoadStore maintain() const;
+    /// Opens it for its next publication.
+    RoadStore to_publish() const;
     Forgotten forget(const ForgetRequest& request) const;
 
     /// Where its key is.

@@ -23,6 +23,11 @@ constexpr std::array shown_publications{std::string_view{"publication"},
                                         std::string_view{"published_figure"},
                                         std::string_view{"published_event"}};
 constexpr std::array background_tables{"background", "place", "road_ref"};
+constexpr std::array tables_of_publications{"published_state",
+                                            "published_until",
+                                            "published_pending",
+                                            "published_figure",
+                                            "published_event"};
 /// Tables that fusion of chosen passes reads besides the passes.
 constexpr std::array tables_of_fusion{"fusion_setting", "valid_from", "control_section"};
 
@@ -148,7 +153,9 @@ void fill_part(RowsFromServer& rows,
                std::span<const ServerChunk> chunks,
                const PartContent& content) {
     fill_new(rows, file, [&] {
-        in_batches(chunks, [&](auto batch) { rows.copy_segments(batch); });
+        for (const auto some : {chunks, content.roads_alone}) {
+            in_batches(some, [&](auto batch) { rows.copy_segments(batch); });
+        }
         const auto ways = numbers_in(file, "SELECT DISTINCT way_id FROM segment");
         in_batches(std::span{ways}, [&](auto batch) {
             const auto condition = fmt::format("way_id = ANY('{}'::bigint[])", array_of(batch));
@@ -159,6 +166,13 @@ void fill_part(RowsFromServer& rows,
             copy_trips_of_passes(rows, file, content.trips);
         }
         rows.copy_marks();
+        if (content.publications) {
+            in_batches(chunks, [&](auto batch) {
+                for (const auto* const table : tables_of_publications) {
+                    rows.copy_rows_of(server_table(table), batch);
+                }
+            });
+        }
         if (content.background) {
             for (const auto* const table : background_tables) {
                 rows.copy_rows(server_table(table));

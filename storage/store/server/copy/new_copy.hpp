@@ -23,8 +23,10 @@ void fill_copy(RowsFromServer& rows, Database& file, ServerContent content);
 
 /// Contents of a copy of some chunks besides roads and fused values.
 struct PartContent {
-    bool passes = false;                   ///< with their trips and cars, and what fusion needs
-    bool background = false;               ///< what maps show below the roads
+    bool passes = false;       ///< with their trips and cars, and what fusion needs
+    bool publications = false; ///< what a crowd's publications keep of the chunks
+    bool background = false;   ///< what maps show below the roads
+    std::span<const ServerChunk> roads_alone{}; ///< other chunks, of which there are roads alone
     std::span<const std::int64_t> trips{}; ///< with passes: other trips, by row, and their cars
     std::function<void()> others{};        ///< copies other rows
 };

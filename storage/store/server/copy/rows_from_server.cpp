@@ -111,6 +111,12 @@ std::string RowsFromServer::from(const char* table, const Chunks& chunks) const 
     if (name == "chunk_state") {
         return source + " JOIN macadam.chunk_state ON chunk_state.chunk = wanted.chunk";
     }
+    if (name.starts_with("published_")) {
+        return source + fmt::format(in_segments, chunk_size_) +
+               fmt::format(" JOIN macadam.{0} ON {0}.{1} = segment.fid",
+                           name,
+                           name == "published_state" ? "fid" : "segment");
+    }
     // A chunk at the end of a way is shorter: rows of its neighbour come along.
     return source + fmt::format(" JOIN macadam.{0} ON {0}.segment >= wanted.chunk"
                                 " AND {0}.segment < wanted.chunk + {1}",
@@ -238,16 +244,36 @@ void RowsFromServer::copy_states(const Chunks& chunks) {
 }
 
 void RowsFromServer::copy_drives(const Chunks& chunks) {
-    const auto& table = server_table("drive");
+    copy_drives_of(fmt::format("(SELECT {} FROM {} WHERE drive.trip IN (SELECT id FROM"
+                               " macadam.trip) ORDER BY drive.chunk, drive.trip, drive.drive)",
+                               qualified_column_list(server_table("drive")),
+                               from("drive", chunks)));
+}
+
+void RowsFromServer::copy_passes_elsewhere(std::span<const std::int64_t> trips,
+                                           std::span<const ServerChunk> held) {
+    std::vector<std::int64_t> rows;
+    for (const auto& chunk : held) {
+        rows.push_back(chunk.row);
+    }
+    const auto but = array_of(rows);
+    constexpr std::size_t most = 2000;
+    for (std::size_t done = 0; done < trips.size(); done += most) {
+        copy_drives_of(fmt::format(
+            "(SELECT cell, chunk, trip, drive, passes, body, NULL::bigint, NULL::bigint,"
+            " NULL::bytea, NULL::bytea FROM macadam.drive WHERE trip ="
+            " ANY('{}'::bigint[]) AND chunk NOT IN (SELECT unnest('{}'::bigint[]))"
+            " ORDER BY chunk, trip, drive)",
+            array_of(trips.subspan(done, std::min(most, trips.size() - done))),
+            but));
+    }
+}
+
+/// \param select  of the columns of table drive.
+void RowsFromServer::copy_drives_of(const std::string& select) {
     BulkInsert passes{*file_, "INSERT INTO pass", 15};
     auto traces = file_->prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)");
-    CopyReader reader{*server_,
-                      fmt::format("(SELECT {} FROM {} WHERE drive.trip IN (SELECT id FROM"
-                                  " macadam.trip) ORDER BY drive.chunk, drive.trip, drive.drive)",
-                                  qualified_column_list(table),
-                                  from("drive", chunks)),
-                      table.name,
-                      columns_of(table)};
+    CopyReader reader{*server_, select, "drive", columns_of(server_table("drive"))};
     while (reader.next()) {
         const auto& row = reader.row();
         const auto chunk = row.integer(1), trip = row.integer(2), drive = row.integer(3);

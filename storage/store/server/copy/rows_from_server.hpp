@@ -56,7 +56,10 @@ public:
     void copy_segments(const Chunks& chunks);
     void copy_states(const Chunks& chunks);
     void copy_drives(const Chunks& chunks);
-    /// Copies rows of tables chunk_state, event and state_change.
+    /// Copies passes of trips, without traces, but over these chunks.
+    void copy_passes_elsewhere(std::span<const std::int64_t> trips,
+                               std::span<const ServerChunk> held);
+    /// Copies rows of tables chunk_state, event, state_change and published_...
     void copy_rows_of(const ServerTable& table, std::span<const ServerChunk> chunks);
     /// Copies marks of chunks that are to be fused, which stand for all their segments with passes.
     void copy_marks();
@@ -72,6 +75,7 @@ public:
 private:
     std::string setting(const char* key);
     std::string from(const char* table, const Chunks& chunks) const;
+    void copy_drives_of(const std::string& select);
 
     ServerConnection* server_;
     Database* file_;

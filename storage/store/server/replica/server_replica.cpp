@@ -6,7 +6,9 @@
 #include "storage/store/server/copy/new_copy.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/reader/server_mirror.hpp"
-#include "storage/store/server/replica/forgotten_part.hpp"
+#include "storage/store/server/replica/database_part.hpp"
+#include "storage/store/server/replica/part_to_forget.hpp"
+#include "storage/store/server/replica/part_to_publish.hpp"
 #include "storage/store/server/replica/write_back.hpp"
 #include "storage/store/server/server_digest.hpp"
 #include "storage/store/server/server_locks.hpp"
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -24,17 +27,19 @@ namespace {
 /// Replica with its server. Members end in reverse order: the connections before the folder.
 class ServerReplica {
 public:
-    /// \param request  trips to forget, if the replica is for that alone.
+    using FindPart = std::function<std::optional<DatabasePart>(ServerConnection&)>;
+
+    /// \param find_part  part of the database that suffices, if any; null: all.
     ServerReplica(const std::string& address,
-                  const std::optional<ForgetRequest>& request,
+                  const FindPart& find_part,
                   const LockWaitPolicy& wait_policy,
                   const Progress& progress)
         : server_{address} {
         take_cell_places(server_);
         take_database(server_);
-        if (request) {
+        if (find_part) {
             expect_server_schema(server_);
-            part_ = part_to_forget(server_, *request);
+            part_ = find_part(server_);
         }
         copy_ = open_server_copy(server_,
                                  Database::Access::write,
@@ -42,11 +47,14 @@ public:
                                  progress,
                                  [&](RowsFromServer& rows, Database& file) {
                                      if (part_) {
-                                         fill_part_to_forget(rows, file, *part_);
+                                         fill_database_part(rows, file, *part_);
                                      } else {
                                          fill_copy(rows, file, ServerContent::all);
                                      }
                                  });
+        if (part_) {
+            copy_->part_to_publish = part_->to_publish;
+        }
         recorder_.emplace(copy_->database);
         copy_->after_write = [this](const Progress& writing) { bring_back(writing); };
     }
@@ -87,7 +95,7 @@ private:
     }
 
     ServerConnection server_;
-    std::optional<ForgottenPart> part_; ///< that the copy holds; else it holds all
+    std::optional<DatabasePart> part_; ///< that the copy holds; else it holds all
     std::shared_ptr<StoreConnection> copy_;
     std::optional<ChangeRecorder> recorder_;
 };
@@ -102,14 +110,24 @@ std::shared_ptr<StoreConnection> store_of(std::shared_ptr<ServerReplica> replica
 std::shared_ptr<StoreConnection> open_server_replica(const std::string& address,
                                                      const LockWaitPolicy& wait_policy,
                                                      const Progress& progress) {
-    return store_of(std::make_shared<ServerReplica>(address, std::nullopt, wait_policy, progress));
+    return store_of(std::make_shared<ServerReplica>(address, nullptr, wait_policy, progress));
 }
 
 std::shared_ptr<StoreConnection> open_replica_to_forget(const std::string& address,
                                                         const ForgetRequest& request,
                                                         const LockWaitPolicy& wait_policy,
                                                         const Progress& progress) {
-    return store_of(std::make_shared<ServerReplica>(address, request, wait_policy, progress));
+    const auto find_part = [&](ServerConnection& server) {
+        return part_to_forget(server, request);
+    };
+    return store_of(std::make_shared<ServerReplica>(address, find_part, wait_policy, progress));
+}
+
+std::shared_ptr<StoreConnection> open_replica_to_publish(const std::string& address,
+                                                         const LockWaitPolicy& wait_policy,
+                                                         const Progress& progress) {
+    return store_of(
+        std::make_shared<ServerReplica>(address, part_to_publish, wait_policy, progress));
 }
 
 } // namespace macadam

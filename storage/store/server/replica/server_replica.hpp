@@ -33,4 +33,12 @@ std::shared_ptr<StoreConnection> open_replica_to_forget(const std::string& addre
                                                         const LockWaitPolicy& wait_policy,
                                                         const Progress& progress);
 
+/// Opens a database on a server for its next publication, and for nothing else: the private copy
+/// holds only the chunks that were driven since earlier ones, with all passes of who drove there,
+/// and not all roads; the whole database for the first one. Otherwise as open_server_replica(), but
+/// without comparing digests of the whole.
+std::shared_ptr<StoreConnection> open_replica_to_publish(const std::string& address,
+                                                         const LockWaitPolicy& wait_policy,
+                                                         const Progress& progress);
+
 } // namespace macadam

@@ -2,18 +2,12 @@
 
 #include "storage/store/server/cells/cell_moves.hpp"
 
-#include "mapping/network/build_network.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
-#include "storage/store/server/reader/server_reader.hpp"
-#include "storage/store/server/replica/server_replica.hpp"
-#include "support/files/files.hpp"
 #include "support/program/lost_standby.hpp"
-#include "support/program/postgres_server.hpp"
-#include "support/roads/engine_world.hpp"
-#include "support/roads/store_world.hpp"
+#include "support/roads/cell_world.hpp"
 
 #include <gmock/gmock.h>
 
@@ -38,145 +32,7 @@ using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t ways = 7;
-
-/// Seven roads of 200 m in a row around the corner of four map tiles of zoom 8, three of them
-/// across a border:
-///
-///     8--7 : 6--5
-///     ... .:... |
-///     1--2-:-3--4
-RoadNetwork border_country() {
-    constexpr double lat_deg = 46.073230625408644, lon_deg = 3 * 360.0 / 256;
-    constexpr double high_deg = 200.2 / 111'195, wide_deg = high_deg / 0.693;
-    const auto at = [&](double x, double y) {
-        return GeoPoint{lat_deg + y * high_deg, lon_deg + x * wide_deg};
-    };
-    const std::vector<GeoPoint> corners{at(-1.5, -0.5),
-                                        at(-0.5, -0.5),
-                                        at(0.5, -0.5),
-                                        at(1.5, -0.5),
-                                        at(1.5, 0.5),
-                                        at(0.5, 0.5),
-                                        at(-0.5, 0.5),
-                                        at(-1.5, 0.5)};
-    std::vector<Way> roads;
-    for (std::int64_t number = 1; number <= ways; ++number) {
-        const auto first = corners.begin() + (number - 1);
-        Way way{.id = number,
-                .name = "",
-                .highway = "residential",
-                .node_ids = {number, number + 1},
-                .line = {first[0], first[1]}};
-        roads.push_back(way);
-    }
-    return build_network(std::move(roads), 20);
-}
-
-/// Trip over all roads, there and back.
-struct BorderTrip {
-    explicit BorderTrip(int number) : record{RichTrip{number}.record} {
-        const RichTrip one{number};
-        for (std::int64_t way = 1; way <= ways; ++way) {
-            for (auto pass : one.passes) {
-                pass.segment.way_id = way;
-                passes.push_back(pass);
-            }
-            for (auto trace : one.traces) {
-                trace.chunk.way_id = way;
-                traces.push_back(trace);
-            }
-            for (auto event : one.events) {
-                event.segment.way_id = way;
-                events.push_back(event);
-            }
-        }
-    }
-
-    NewTrip as_new() const { return {&record, passes, traces, false, events}; }
-
-    TripRecord record;
-    std::vector<Pass> passes;
-    std::vector<RoughnessTrace> traces;
-    std::vector<PassEvent> events;
-};
-
-bool add(ImportTarget& trips, int number) {
-    const BorderTrip trip{number};
-    const auto one = trip.as_new();
-    return trips.add_trips({&one, 1}).front();
-}
-
-/// Adds trips to a file and fuses them.
-void import_into(const RoadStore& file, int first, int past) {
-    const auto open = import_store_of(file);
-    for (int number = first; number < past; ++number) {
-        add(*open.trips, number);
-    }
-    fuse_all(*open.trips);
-}
-
-class Cells : public ::testing::Test {
-protected:
-    void SetUp() override {
-        static_cast<void>(RoadStore::create(folder_ / "roads.gpkg", border_country(), settings()));
-        copy_to_server(folder_ / "roads.gpkg", front_, {}, {});
-        ServerConnection boss{boss_};
-        for (const auto& cell : cells_of(boss)) {
-            numbers_.push_back(cell.number);
-        }
-        ASSERT_EQ(numbers_.size(), 4U);
-    }
-
-    std::string digest_of_file(int trips) {
-        auto store = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
-        import_into(store, 0, trips);
-        return store.digest();
-    }
-
-    std::string digest() const {
-        return StoreReader{open_server_reader(front_, {}, Audience::operator_, {}, {})}.digest();
-    }
-
-    std::int64_t move(std::size_t cell, const std::string& to) {
-        ServerConnection boss{boss_};
-        return move_cell(boss, numbers_.at(cell), to);
-    }
-
-    /// Moves the western cells to one server, the eastern ones to the other.
-    void spread() {
-        for (std::size_t cell = 0; cell < numbers_.size(); ++cell) {
-            move(cell, cell % 2 == 0 ? west_ : east_);
-        }
-    }
-
-    void import(int first, int past) {
-        const auto open = open_server_import(front_);
-        for (int number = first; number < past; ++number) {
-            EXPECT_TRUE(add(*open.trips, number));
-        }
-        fuse_all(*open.trips);
-    }
-
-    std::int64_t number(const std::string& address, const std::string& sql) {
-        return ServerConnection{address}.number(sql);
-    }
-
-    /// The address as clients of a cluster have it, whose first server is down.
-    static std::string with_a_standby(std::string address) {
-        return address.replace(
-            address.find("?host="), 6, "?target_session_attrs=read-write&host=/nowhere,");
-    }
-
-    std::filesystem::path folder_ = test_folder();
-    PostgresServer east_server_;
-    PostgresServer server_; // keys and roads are kept there
-    std::string front_ = server_.new_database("front");
-    std::string boss_ = server_.address("front");
-    std::string west_ = with_a_standby(server_.new_database("west"));
-    std::string east_ = east_server_.new_database("east");
-    std::vector<std::int32_t> numbers_; ///< north-west, north-east, south-west, south-east
-};
+class Cells : public CellWorld {};
 
 TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
     constexpr int trips = 6;
@@ -222,7 +78,7 @@ TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
         importers.push_back(std::async(std::launch::async, [&, importer] {
             const auto open = open_server_import(front_);
             for (int number = importer; number < trips; number += 2) {
-                EXPECT_TRUE(add(*open.trips, number));
+                EXPECT_TRUE(add_border_trip(*open.trips, number));
                 fuse_all(*open.trips);
             }
         }));
@@ -257,7 +113,7 @@ TEST_F(Cells, HaveEachTripOnceThoughImportersAndServersAreKilled) {
                 const auto open = open_server_import(front_);
                 for (int number = 0; number < trips; ++number) {
                     if (!open.trips->contains_trip(trip_record(number).sha256)) {
-                        add(*open.trips, number);
+                        add_border_trip(*open.trips, number);
                     }
                     if (number % 4 == 0) {
                         fuse_all(*open.trips);
@@ -287,7 +143,7 @@ TEST_F(Cells, HaveEachTripOnceThoughImportersAndServersAreKilled) {
     EXPECT_LT(ended_alone, kills) << "no kill met an import";
     const auto open = open_server_import(front_);
     for (int number = 0; number < trips; ++number) {
-        add(*open.trips, number); // again: what is there stays
+        add_border_trip(*open.trips, number); // again: what is there stays
     }
     fuse_all(*open.trips);
     EXPECT_EQ(digest(), expected);
@@ -297,7 +153,7 @@ TEST_F(Cells, HaveEachTripOnceThoughImportersAndServersAreKilled) {
     ServerConnection front{front_};
     remove_unfinished(front);
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.unfinished"), 0);
-    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 2 * ways * trips);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 2 * border_ways * trips);
     EXPECT_EQ(digest(), expected);
 }
 
@@ -325,8 +181,8 @@ TEST_F(Cells, SayThatATripIsInDoubtUntilTheStandbyOfACellHasIt) {
     ServerConnection east{boss};
     lose_standby(boss);
     const auto open = open_server_import(front_);
-    auto first =
-        std::async(std::launch::async, [&] { return refusal_of([&] { add(*open.trips, 0); }); });
+    auto first = std::async(std::launch::async,
+                            [&] { return refusal_of([&] { add_border_trip(*open.trips, 0); }); });
     const auto waiting = " FROM pg_stat_activity WHERE " + waits_for_standby;
     while (east.number("SELECT count(*)" + waiting) == 0) { // the test's time limit ends it
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
@@ -337,76 +193,9 @@ TEST_F(Cells, SayThatATripIsInDoubtUntilTheStandbyOfACellHasIt) {
         AllOf(HasSubstr("a server of its cells warns"), HasSubstr("run the command again")));
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.trip"), 0);
     need_no_standby(boss);
-    EXPECT_TRUE(add(*open.trips, 0));
+    EXPECT_TRUE(add_border_trip(*open.trips, 0));
     fuse_all(*open.trips);
     EXPECT_EQ(digest(), digest_of_file(1));
-}
-
-TEST_F(Cells, SwitchToAGenerationThatIsPreparedEverywhere) {
-    import(0, 6);
-    spread();
-    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
-    import_into(file, 0, 6);
-    const auto before = digest();
-    ASSERT_EQ(before, file.digest());
-    const std::vector<SegmentKey> resurfaced{{1, true, 2}, {2, false, 9}, {6, true, 5}};
-    const auto maintain = [&](RoadStore store) {
-        store.maintenance.set_valid_from(resurfaced, 1'765'000'000'000, {});
-    };
-
-    // One server takes no commit: nothing changes on any.
-    ServerConnection east{east_};
-    east.run("CREATE FUNCTION macadam.refuse() RETURNS trigger LANGUAGE plpgsql AS"
-             " $$ BEGIN IF current_setting('application_name') = 'postgres_fdw' THEN"
-             " RAISE EXCEPTION 'no room'; END IF; RETURN NULL; END $$;"
-             "CREATE FUNCTION macadam.refuse_commits() RETURNS event_trigger LANGUAGE plpgsql AS"
-             " $$ DECLARE t text; BEGIN FOR t IN SELECT object_identity FROM"
-             " pg_event_trigger_ddl_commands() WHERE object_identity ~ 'segment_state_' AND"
-             " object_type = 'table' LOOP EXECUTE format('CREATE CONSTRAINT TRIGGER refuse AFTER"
-             " DELETE OR INSERT ON %s DEFERRABLE INITIALLY DEFERRED FOR EACH ROW EXECUTE FUNCTION"
-             " macadam.refuse()', t); END LOOP; END $$");
-    ServerConnection{east_server_.address("east")}.run(
-        "CREATE EVENT TRIGGER refuse_commits ON ddl_command_end WHEN TAG IN ('CREATE TABLE')"
-        " EXECUTE FUNCTION macadam.refuse_commits()");
-    EXPECT_THAT(refusal_of([&] { maintain(RoadStore{open_server_replica(front_, {}, {})}); }),
-                HasSubstr("no room"));
-    EXPECT_EQ(digest(), before);
-    ServerConnection{east_server_.address("east")}.run("DROP EVENT TRIGGER refuse_commits");
-
-    maintain(RoadStore{open_server_replica(front_, {}, {})});
-    maintain(file);
-    EXPECT_NE(digest(), before);
-    EXPECT_EQ(digest(), file.digest());
-    for (const auto& address : {west_, east_}) { // what was replaced is gone
-        EXPECT_EQ(number(address,
-                         "SELECT count(*) FROM pg_class WHERE relkind = 'r' AND relname ~"
-                         " '^(drive|segment_state)_\\d+_\\d+$'"),
-                  4);
-    }
-    import(6, 8);
-    import_into(file, 6, 8);
-    EXPECT_EQ(digest(), file.digest());
-}
-
-TEST_F(Cells, AreSwitchedBetweenReadersWithoutMakingOthersWait) {
-    import(0, 4);
-    spread();
-    auto reader = std::make_unique<ServerConnection>(front_);
-    reader->begin(true);
-    reader->number("SELECT count(*) FROM macadam.drive"); // and reads on
-    auto done = std::async(std::launch::async, [&] {
-        RoadStore{open_server_replica(front_, {}, {})}.maintenance.set_valid_from(
-            std::vector<SegmentKey>{{1, true, 2}}, 1'765'000'000'000, {});
-    });
-    const std::string waiting = "SELECT count(*) FROM pg_locks WHERE NOT granted AND relation IS"
-                                " NOT NULL AND mode = 'AccessExclusiveLock'";
-    while (number(front_, waiting) == 0 &&
-           done.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
-    }
-    EXPECT_GT(number(front_, "SELECT count(*) FROM macadam.drive"), 0); // beside both
-    EXPECT_EQ(done.wait_for(std::chrono::milliseconds{0}), std::future_status::timeout);
-    reader.reset();
-    done.get();
 }
 
 TEST_F(Cells, AreMovedByThoseOnlyWhoMay) {

@@ -94,8 +94,9 @@ protected:
     Published publish(std::int64_t now_ms) {
         const auto roads = roads_in_a_row(road_count);
         const auto in_file = RoadStore::open(oracle_).maintenance.publish(roads, now_ms);
-        const auto done = database_->maintain().maintenance.publish(roads, now_ms);
+        const auto done = database_->to_publish().maintenance.publish(roads, now_ms);
         EXPECT_EQ(done.changed, in_file.changed);
+        EXPECT_EQ(done.publication, in_file.publication);
         return done;
     }
 
@@ -253,7 +254,7 @@ TEST_P(CrowdOnAnyEngine, IsPublishedOnceAMonthByWhoHasTheKey) {
     publish(february_ms);
     const auto refusal = [&] {
         return refusal_of([&] {
-            database_->maintain().maintenance.publish(roads_in_a_row(road_count), february_ms);
+            database_->to_publish().maintenance.publish(roads_in_a_row(road_count), february_ms);
         });
     };
     EXPECT_THAT(refusal(),

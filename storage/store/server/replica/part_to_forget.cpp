@@ -1,13 +1,9 @@
-#include "storage/store/server/replica/forgotten_part.hpp"
+#include "storage/store/server/replica/part_to_forget.hpp"
 
 #include "storage/postgres/server_array.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/privacy/trip_names.hpp"
-#include "storage/store/server/copy/new_copy.hpp"
-#include "storage/store/server/server_tables.hpp"
 #include "storage/store/server/user_files.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
@@ -80,47 +76,28 @@ std::vector<std::int64_t> leaving_trips(ServerConnection& server, const ForgetRe
 
 } // namespace
 
-std::optional<ForgottenPart> part_to_forget(ServerConnection& server,
-                                            const ForgetRequest& request) {
-    ForgottenPart part{.chunks = {}, .leaving = leaving_trips(server, request), .staying = {}};
-    const auto leaving = array_of(part.leaving);
-    const auto count = [&](const char* sql) { return server.numbers(sql, {leaving}).at(0); };
-    if (count("SELECT count(*) FROM macadam.trip WHERE id = ANY($1::bigint[])"
-              " AND calibrates <> 0") != 0) {
+std::optional<DatabasePart> part_to_forget(ServerConnection& server, const ForgetRequest& request) {
+    const auto trips = leaving_trips(server, request);
+    const auto leaving = array_of(trips);
+    if (server
+            .numbers("SELECT count(*) FROM macadam.trip WHERE id = ANY($1::bigint[])"
+                     " AND calibrates <> 0",
+                     {leaving})
+            .at(0) != 0) {
         return std::nullopt;
     }
-    part.staying =
-        server.numbers("SELECT max(id) FROM macadam.trip WHERE id <> ALL($1::bigint[])"
-                       " AND vehicle IN (SELECT vehicle FROM macadam.trip"
-                       " WHERE id = ANY($1::bigint[])) GROUP BY vehicle"
-                       " UNION SELECT max(id) FROM macadam.trip WHERE id <> ALL($1::bigint[])"
-                       " HAVING max(id) IS NOT NULL",
-                       {leaving});
-    const auto chunks = server.numbers("SELECT DISTINCT cell, chunk FROM macadam.drive"
-                                       " WHERE trip = ANY($1::bigint[]) ORDER BY cell, chunk",
-                                       {leaving});
-    for (std::size_t i = 0; i + 1 < chunks.size(); i += 2) {
-        part.chunks.push_back({static_cast<std::int32_t>(chunks[i]), chunks[i + 1]});
-    }
+    DatabasePart part{
+        .chunks = chunks_in(server.numbers("SELECT DISTINCT cell, chunk FROM macadam.drive"
+                                           " WHERE trip = ANY($1::bigint[]) ORDER BY cell, chunk",
+                                           {leaving})),
+        .trips = server.numbers("SELECT max(id) FROM macadam.trip WHERE id <> ALL($1::bigint[])"
+                                " AND vehicle IN (SELECT vehicle FROM macadam.trip"
+                                " WHERE id = ANY($1::bigint[])) GROUP BY vehicle"
+                                " UNION SELECT max(id) FROM macadam.trip"
+                                " WHERE id <> ALL($1::bigint[]) HAVING max(id) IS NOT NULL",
+                                {leaving})};
+    part.trips.insert(part.trips.end(), trips.begin(), trips.end());
     return part;
-}
-
-void fill_part_to_forget(RowsFromServer& rows, Database& file, const ForgottenPart& part) {
-    auto trips = part.leaving;
-    trips.insert(trips.end(), part.staying.begin(), part.staying.end());
-    const auto copy_others = [&] {
-        const auto of_trips = fmt::format("trip = ANY('{}'::bigint[])", array_of(part.leaving));
-        for (const auto* const table : {"event", "published_pending"}) {
-            rows.copy_rows(server_table(table), of_trips);
-        }
-        // The next operation gets the row after the last one.
-        rows.copy_rows(server_table("audit"), "id = (SELECT max(id) FROM macadam.audit)");
-        rows.copy_rows(server_table("publication"));
-    };
-    fill_part(rows,
-              file,
-              part.chunks,
-              {.passes = true, .background = false, .trips = trips, .others = copy_others});
 }
 
 } // namespace macadam

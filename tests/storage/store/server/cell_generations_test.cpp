@@ -1,0 +1,153 @@
+// Operations on a database whose cells lie on two servers: prepared everywhere, then switched.
+
+#include "mapping/conflation/network_conflation.hpp"
+#include "mapping/network/build_network.hpp"
+#include "storage/postgres/server_connection.hpp"
+#include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/replica/server_replica.hpp"
+#include "support/roads/cell_world.hpp"
+#include "support/roads/edited_network.hpp"
+#include "support/roads/fleet_passes.hpp"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CellGenerations : public CellWorld {};
+
+TEST_F(CellGenerations, SwitchToAGenerationThatIsPreparedEverywhere) {
+    import(0, 6);
+    spread();
+    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+    import_border_trips(file, 0, 6);
+    const auto before = digest();
+    ASSERT_EQ(before, file.digest());
+    const std::vector<SegmentKey> resurfaced{{1, true, 2}, {2, false, 9}, {6, true, 5}};
+    const auto maintain = [&](RoadStore store) {
+        store.maintenance.set_valid_from(resurfaced, 1'765'000'000'000, {});
+    };
+
+    // One server takes no commit: nothing changes on any.
+    ServerConnection east{east_};
+    east.run("CREATE FUNCTION macadam.refuse() RETURNS trigger LANGUAGE plpgsql AS"
+             " $$ BEGIN IF current_setting('application_name') = 'postgres_fdw' THEN"
+             " RAISE EXCEPTION 'no room'; END IF; RETURN NULL; END $$;"
+             "CREATE FUNCTION macadam.refuse_commits() RETURNS event_trigger LANGUAGE plpgsql AS"
+             " $$ DECLARE t text; BEGIN FOR t IN SELECT object_identity FROM"
+             " pg_event_trigger_ddl_commands() WHERE object_identity ~ 'segment_state_' AND"
+             " object_type = 'table' LOOP EXECUTE format('CREATE CONSTRAINT TRIGGER refuse AFTER"
+             " DELETE OR INSERT ON %s DEFERRABLE INITIALLY DEFERRED FOR EACH ROW EXECUTE FUNCTION"
+             " macadam.refuse()', t); END LOOP; END $$");
+    ServerConnection{east_server_.address("east")}.run(
+        "CREATE EVENT TRIGGER refuse_commits ON ddl_command_end WHEN TAG IN ('CREATE TABLE')"
+        " EXECUTE FUNCTION macadam.refuse_commits()");
+    EXPECT_THAT(refusal_of([&] { maintain(RoadStore{open_server_replica(front_, {}, {})}); }),
+                HasSubstr("no room"));
+    EXPECT_EQ(digest(), before);
+    ServerConnection{east_server_.address("east")}.run("DROP EVENT TRIGGER refuse_commits");
+
+    maintain(RoadStore{open_server_replica(front_, {}, {})});
+    maintain(file);
+    EXPECT_NE(digest(), before);
+    EXPECT_EQ(digest(), file.digest());
+    for (const auto& address : {west_, east_}) { // what was replaced is gone
+        EXPECT_EQ(number(address,
+                         "SELECT count(*) FROM pg_class WHERE relkind = 'r' AND relname ~"
+                         " '^(drive|segment_state)_\\d+_\\d+$'"),
+                  4);
+    }
+    import(6, 8);
+    import_border_trips(file, 6, 8);
+    EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(CellGenerations, AreCalibratedAsAFileIs) {
+    constexpr int fleet_trips = 30;
+    spread();
+    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+    for (const auto& open : {import_store_of(file).trips, open_server_import(front_).trips}) {
+        for (int number = 0; number < fleet_trips; ++number) {
+            const auto record = trip_record(number);
+            auto passes = passes_of_fleet(number);
+            for (std::size_t i = 0; i < passes.size(); ++i) {
+                passes[i].segment.way_id = i % 2 == 0 ? 1 : 5; // on both servers
+            }
+            const NewTrip trip{&record, passes, {}, false, {}};
+            open->add_trips({&trip, 1});
+        }
+        fuse_all(*open);
+    }
+    const auto before = digest();
+    ASSERT_EQ(before, file.digest());
+    file.maintenance.calibrate();
+    RoadStore{open_server_replica(front_, {}, {})}.maintenance.calibrate();
+    EXPECT_NE(digest(), before);
+    EXPECT_EQ(digest(), file.digest());
+    const ForgetRequest request{.trips = {trip_record(2).sha256}, .vehicles = {}};
+    EXPECT_TRUE(file.maintenance.forget(request).calibrated);
+    EXPECT_TRUE(RoadStore{open_replica_to_forget(front_, request, {}, {})}
+                    .maintenance.forget(request)
+                    .calibrated);
+    EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(CellGenerations, MoveTheirPassesToANewerMapAsAFileDoes) {
+    import(0, 6);
+    spread();
+    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+    import_border_trips(file, 0, 6);
+    const auto roads = border_country();
+    auto network = edited(copies_of_ways(roads));
+    reverse(network, 2); // begins in the other server's cell, now
+    renumber(network, 6, 60);
+    const auto newer = build_network(ways_of(network), 20);
+    const auto change = change_between(roads, newer);
+    const auto update = [&](RoadStore store) {
+        return store.maintenance.update_network(roads, newer, change, {"newer.osm", ""});
+    };
+    EXPECT_TRUE(update(file).changed);
+    EXPECT_TRUE(update(RoadStore{open_server_replica(front_, {}, {})}).changed);
+    EXPECT_EQ(digest(), file.digest());
+    const auto one = RichTrip{7}; // over way 1
+    for (const auto& open : {import_store_of(file).trips, open_server_import(front_).trips}) {
+        const auto trip = one.as_new();
+        open->add_trips({&trip, 1});
+        fuse_all(*open);
+    }
+    EXPECT_EQ(digest(), file.digest());
+    EXPECT_EQ(copy_from_server(front_, folder_ / "copy.gpkg", {}).digest, file.digest());
+}
+
+TEST_F(CellGenerations, AreSwitchedBetweenReadersWithoutMakingOthersWait) {
+    import(0, 4);
+    spread();
+    auto reader = std::make_unique<ServerConnection>(front_);
+    reader->begin(true);
+    reader->number("SELECT count(*) FROM macadam.drive"); // and reads on
+    auto done = std::async(std::launch::async, [&] {
+        RoadStore{open_server_replica(front_, {}, {})}.maintenance.set_valid_from(
+            std::vector<SegmentKey>{{1, true, 2}}, 1'765'000'000'000, {});
+    });
+    const std::string waiting = "SELECT count(*) FROM pg_locks WHERE NOT granted AND relation IS"
+                                " NOT NULL AND mode = 'AccessExclusiveLock'";
+    while (number(front_, waiting) == 0 &&
+           done.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
+    }
+    EXPECT_GT(number(front_, "SELECT count(*) FROM macadam.drive"), 0); // beside both
+    EXPECT_EQ(done.wait_for(std::chrono::milliseconds{0}), std::future_status::timeout);
+    reader.reset();
+    done.get();
+}
+
+} // namespace
+} // namespace macadam::testing
