@@ -16,6 +16,10 @@ std::string words_of(const AuditEntry& entry) {
     return fmt::format("{}: {}", entry.what, entry.detail);
 }
 
+Cell segments_of(const AuditEntry& entry) {
+    return entry.segments ? Cell{static_cast<std::int64_t>(*entry.segments)} : Cell{};
+}
+
 Cell iri_of(const NumberChange& change) {
     return change.iri_um ? Cell{*change.iri_um / 1000.0} : Cell{};
 }
@@ -31,7 +35,7 @@ const Columns<AuditEntry> entry_columns{
     {"generation", as::integer, [](auto& r) { return r.generation; }, {"gen", " {:>3}"}},
     {"what", as::text, [](auto& r) { return r.what; }},
     {"detail", as::text, [](auto& r) { return r.detail; }},
-    {"segments", as::integer, [](auto& r) { return r.segments; }, {"segments", " {:>9}"}},
+    {"segments", as::integer, segments_of, {"segments", " {:>9}"}},
     {"", as::text, words_of, {"operation", "  {}"}},
 };
 

@@ -4,6 +4,7 @@
 #include "storage/store/fusion/dirty_fusion.hpp"
 #include "storage/store/privacy/trip_names.hpp"
 #include "storage/store/rows/known_trips.hpp"
+#include "storage/store/rows/old_changes.hpp"
 #include "storage/store/rows/pass_writer.hpp"
 
 #include <algorithm>
@@ -136,6 +137,7 @@ std::size_t TripImporter::refresh(const Progress& progress) {
 std::size_t TripImporter::refresh(const Progress& progress, FusionRecord& record) {
     const auto fused = fuse_dirty(
         store_->database, store_->segments_per_chunk(), store_->classes(), progress, record);
+    remove_old_changes(store_->database);
     store_->written(progress);
     return fused;
 }

@@ -1,6 +1,7 @@
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/chunk_trace_rows.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "storage/store/rows/old_changes.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/schema/store_schema.hpp"
 
@@ -15,12 +16,14 @@ namespace macadam {
 namespace {
 
 AuditEntry entry_in(const Statement& row) {
+    const auto segments = row.known_integer(5);
     return {.id = row.integer(0),
             .at = row.text(1),
             .generation = static_cast<int>(row.integer(2)),
             .what = row.text(3),
             .detail = row.text(4),
-            .segments = static_cast<std::size_t>(row.integer(5))};
+            .segments =
+                segments ? std::optional{static_cast<std::size_t>(*segments)} : std::nullopt};
 }
 
 } // namespace
@@ -61,11 +64,13 @@ std::vector<HistoricPass> StoreReader::history(const SegmentKey& key) const {
 
 std::vector<AuditEntry> StoreReader::audit() const {
     auto select = store_->database.prepare(
-        "SELECT audit.id, at, generation, what, detail, ifnull(changed.segments, 0) FROM audit"
+        "SELECT audit.id, at, generation, what, detail,"
+        " CASE WHEN id >= ? THEN ifnull(changed.segments, 0) END FROM audit"
         " LEFT JOIN (SELECT audit, count(*) AS segments FROM state_change GROUP BY audit) AS "
         "changed"
         " ON changed.audit = audit.id ORDER BY 1");
     std::vector<AuditEntry> entries;
+    select.bind(first_kept_audit(store_->database));
     while (select.step()) {
         entries.push_back(entry_in(select));
     }

@@ -2,8 +2,10 @@
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/store_version.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "storage/store/rows/old_changes.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 
@@ -33,7 +35,8 @@ std::optional<std::vector<std::int64_t>>
 changed_chunks(Database& database, const StoreMoment& before, const StoreMoment& now) {
     const StoreVersion then{before.maintenance, before.last_trip};
     if (now.maintenance != before.maintenance) {
-        return only_forgot(database, then, {now.maintenance, now.last_trip})
+        return only_forgot(database, then, {now.maintenance, now.last_trip}) &&
+                       std::max(before.last_audit, std::int64_t{1}) >= first_kept_audit(database)
                    ? std::optional{chunks_changed_from(database, before.last_audit)}
                    : std::nullopt;
     }

@@ -44,7 +44,8 @@ struct AuditEntry {
     int generation;
     std::string what; ///< "import", "forget", "valid-from", "calibrate", ...
     std::string detail;
-    std::size_t segments; ///< whose value it changed, as far as known
+    std::optional<std::size_t>
+        segments; ///< whose value it changed; `std::nullopt`: no longer known
 };
 
 /// Change of a segment's value.

@@ -40,8 +40,8 @@ struct PublishedPart {
     std::int64_t last_segment = 0;      ///< row of the last segment of all
     std::int64_t trips = 0;             ///< of cars, in all
     std::int64_t cars = 0;              ///< in all
-    PublishedTotal shown_elsewhere{};     ///< published segments of other chunks
-    PublishedTotal left_elsewhere{};      ///< driven ones of other chunks that are not published
+    PublishedTotal shown_elsewhere{};   ///< published segments of other chunks
+    PublishedTotal left_elsewhere{};    ///< driven ones of other chunks that are not published
 };
 
 /// Data removed when a database of own cars became a crowd database.

@@ -11,6 +11,7 @@ namespace {
 constexpr int of_database = 0x6d616361;
 constexpr int of_imports = 0x6d616362;
 constexpr int of_cells = 0x6d616363;
+constexpr int of_old_changes = 0x6d616364;
 constexpr int of_all_places = -1; // beside the numbers of cells
 
 } // namespace
@@ -67,6 +68,11 @@ void see_all_cells(ServerConnection& server) {
         server.run("SELECT count(*) FROM macadam.drive WHERE trip = -1");
         release_database(server);
     }
+}
+
+bool try_take_old_changes(ServerConnection& server) {
+    return server.number(fmt::format("SELECT pg_try_advisory_xact_lock({}, 0)::integer",
+                                     of_old_changes)) != 0;
 }
 
 void release_database(ServerConnection& server) {

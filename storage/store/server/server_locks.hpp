@@ -54,6 +54,10 @@ std::int32_t number_of_import(const std::string& name);
 void take_import_lock(ServerConnection& server, std::int32_t import);
 void release_import_lock(ServerConnection& server, std::int32_t import);
 
+/// Takes the removal of old changes until the end of the transaction. \returns false if another
+/// connection has it.
+bool try_take_old_changes(ServerConnection& server);
+
 /// Tests whether another connection imports; with a number, that import.
 bool is_other_importing(ServerConnection& server, const std::optional<std::int32_t>& import);
 

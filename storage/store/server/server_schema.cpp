@@ -92,6 +92,7 @@ std::vector<Migration> migrations() {
     all.push_back({5, "trips of logs", job_trip_schema()});
     all.push_back({6, "marks of each trip", marks_migration_sql});
     all.push_back({7, "publications of crowds", publications_migration_sql()});
+    all.push_back({8, "removal of old changes", old_changes_migration_sql});
     return all;
 }
 

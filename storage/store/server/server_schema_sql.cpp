@@ -234,6 +234,13 @@ BEGIN
 END $$;
 )";
 
+// Rows come in the order of the audit, so that an index of ranges of blocks, some kB, tells where
+// the old ones are.
+const char* const old_changes_migration_sql = R"(
+CREATE INDEX IF NOT EXISTS state_change_audit ON macadam.state_change USING brin (audit) WITH (autosummarize = on);
+COMMENT ON INDEX macadam.state_change_audit IS 'Values by operation, to remove old ones';
+)";
+
 namespace {
 
 // A crowd's raw logs leave the object store whatever became of them.

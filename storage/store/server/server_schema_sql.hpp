@@ -24,4 +24,7 @@ extern const char* const marks_migration_sql;
 /// Migration 7, once its tables are there.
 std::string publications_migration_sql();
 
+/// Migration 8: old changes of values are removed.
+extern const char* const old_changes_migration_sql;
+
 } // namespace macadam

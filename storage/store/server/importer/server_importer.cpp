@@ -4,6 +4,7 @@
 #include "storage/store/rows/known_trips.hpp"
 #include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/importer/network_image.hpp"
+#include "storage/store/server/importer/old_server_changes.hpp"
 #include "storage/store/server/importer/server_fusion.hpp"
 #include "storage/store/server/importer/trip_rows.hpp"
 #include "storage/store/server/server_locks.hpp"
@@ -102,7 +103,9 @@ public:
     }
 
     std::size_t refresh(const Progress& progress, FusionRecord& record) override {
-        return fusion_.fuse_marked(progress, record);
+        const auto fused = fusion_.fuse_marked(progress, record);
+        remove_old_changes(*server_);
+        return fused;
     }
 
     std::size_t waiting() override {

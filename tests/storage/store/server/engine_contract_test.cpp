@@ -2,6 +2,8 @@
 
 #include "mapping/conflation/network_conflation.hpp"
 #include "mapping/network/build_network.hpp"
+#include "storage/postgres/server_connection.hpp"
+#include "storage/sqlite/sqlite.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/edited_network.hpp"
 #include "support/roads/engine_world.hpp"
@@ -213,6 +215,47 @@ TEST_P(DatabaseOnAnyEngine, CountsPassesFromTheDayOfAResurfacing) {
     add_rich_trip(*import_store_of(oracle.store()).trips, 7);
     fuse_all(*import_store_of(oracle.store()).trips);
     EXPECT_EQ(database_.read().digest(), oracle.store().digest());
+}
+
+TEST_P(DatabaseOnAnyEngine, KeepsChangesOfValuesFor400Days) {
+    const bool is_on_server = GetParam() == Engine::postgresql;
+    const auto make_all_old = [&] {
+        const std::string update = "SET at = '2020-02-29T12:00:00.000Z'";
+        if (is_on_server) {
+            ServerConnection{database_.name()}.run("UPDATE macadam.audit " + update);
+        } else {
+            Database{database_.name(), Database::Access::write}.run("UPDATE audit " + update);
+        }
+    };
+    const auto changes = [&] {
+        return is_on_server ? ServerConnection{database_.name()}.number(
+                                  "SELECT count(*) FROM macadam.state_change")
+                            : Database{database_.name(), Database::Access::read}.number(
+                                  "SELECT count(*) FROM state_change");
+    };
+    const SegmentKey key{1, true, 2};
+    import_all();
+    database_.maintain().maintenance.set_valid_from({&key, 1}, 1'765'000'000'000, "new surface");
+    add_rich_trip(*database_.import().trips, trip_count);
+    fuse_all(*database_.import().trips);
+    EXPECT_GT(changes(), 40); // twenty segments, by two imports and a new surface
+    make_all_old();
+    fuse_all(*database_.import().trips); // removes them, though there is nothing to fuse
+    EXPECT_EQ(changes(), 0);
+    const auto store = database_.read();
+    const auto entries = store.audit();
+    ASSERT_THAT(entries, SizeIs(1)); // not those of imports
+    EXPECT_EQ(entries[0].what, "valid-from");
+    EXPECT_EQ(entries[0].segments, std::nullopt); // no longer known
+    EXPECT_THAT(store.changes(key), IsEmpty());
+
+    add_rich_trip(*database_.import().trips, trip_count + 1);
+    fuse_all(*database_.import().trips);
+    EXPECT_THAT(database_.read().audit(), SizeIs(2));
+    EXPECT_THAT(database_.read().changes(key), SizeIs(1));
+    Oracle file{folder_ / "oracle.gpkg", {0, 1, 2, 3, 4, 5, 6, 7}};
+    file.store().maintenance.set_valid_from({&key, 1}, 1'765'000'000'000, "new surface");
+    EXPECT_EQ(database_.read().digest(), file.store().digest());
 }
 
 TEST_P(DatabaseOnAnyEngine, ReplacesTheResultsOfATrip) {
