@@ -98,6 +98,8 @@ public:
 
     RoadStore to_publish() const { return database_.to_publish(); }
     StoreReader read() const { return database_.read(); }
+    /// As the program reads all roads while it publishes a part.
+    RoadNetwork all_roads() const { return database_.import().map.roads(); }
 
     /// Ends the month with a publication. \returns the number of segments with new values.
     std::size_t publish() {
@@ -211,6 +213,7 @@ TEST_P(TownsToPublish, FetchNotMoreWhereMoreTownsAreThatNobodyDrove) {
         const auto part = crowd.to_publish();
         EXPECT_EQ(part.info().passes, 400U); // of five cars, twice
         EXPECT_EQ(part.info().segments_with_passes, 40U);
+        EXPECT_EQ(way_count(crowd.all_roads()), roads_of_town * towns);
     }
     const auto whole = crowd.read().info();
     EXPECT_EQ(whole.passes, 200U * (towns + 1));
