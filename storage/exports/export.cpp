@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file.hpp"
+#include "storage/atomic/atomic_file_set.hpp"
 #include "storage/exports/segment_export.hpp"
 #include "storage/exports/style_files.hpp"
 #include "storage/text/json.hpp"
@@ -87,10 +88,14 @@ std::size_t export_as(std::string_view suffix, const SegmentExport& what, const 
     const auto written = write_as(
         suffix, what, in_dialect([&](std::string_view more) { out.write(more); }, suffix, text));
     what.store.expect_in_place();
-    out.commit();
-    if (suffix == ".geojson") {
-        write_style_files(what.file, what.file.parent_path(), {what.classes, text.units});
+    if (suffix != ".geojson") {
+        out.commit();
+        return written;
     }
+    AtomicFileSet styles{what.file}; // complete before anything appears
+    write_style_files(what.file, styles.folder(), {what.classes, text.units});
+    out.commit();
+    styles.commit();
     return written;
 }
 
