@@ -62,9 +62,9 @@ struct StoreConnection {
     bool is_copy_of_server = false;
     std::optional<PrivacyKey> key;
     std::function<void(const Progress&)> after_write; ///< see written()
-    /// Of a copy of a part of a database: times of the first and last pass of the whole.
+    /// Times of the first and last pass of the whole database, if this is a copy of a part of it.
     std::optional<ObservedPeriod> seen_in_whole{};
-    /// Of a copy of a part of a database that is made to publish.
+    /// Chunks that may change, and totals of all others, if this copy is made to publish.
     std::optional<PublishedPart> part_to_publish{};
     bool published_alone = false; ///< see StoreReader::shows_published_alone()
 };
