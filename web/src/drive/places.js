@@ -7,7 +7,7 @@ export const fixesInRow = 3; // prove that the car is elsewhere: one jump, or tw
 const poor_m = 50; // a worse fix proves no distance
 const topSpeed_mps = 70;
 
-export const placeOf = (row, t_ms) => ({ t_ms, lat: row[fixColumn.lat], lon: row[fixColumn.lon], accuracy_m: row[fixColumn.accuracy] });
+export const placeOf = (row, t_ms) => ({ t_ms, row, lat: row[fixColumn.lat], lon: row[fixColumn.lon], accuracy_m: row[fixColumn.accuracy] });
 
 const isGood = ({ lat, lon, accuracy_m }) => accuracy_m <= poor_m && (lat !== 0 || lon !== 0);
 
@@ -39,4 +39,24 @@ export class JumpFilter {
     this.#last = place;
     return believed;
   }
+}
+
+// Of places in the order of time those that are believed.
+export function believed(places) {
+  const filter = new JumpFilter();
+  return places.flatMap((place) => filter.add(place));
+}
+
+// The same, and the poor ones that a car can have reached between their believed neighbours: a poor fix, too, shows about where it was.
+export function plausible(places) {
+  const sure = believed(places);
+  let next = 0;
+  return places.filter((place) => {
+    if (place === sure[next]) {
+      next += 1;
+      return true;
+    }
+    const near = { ...place, accuracy_m: Math.min(place.accuracy_m, poor_m) };
+    return !isGood(place) && [sure[next - 1], sure[next]].every((each) => each && isReachable(each, near));
+  });
 }

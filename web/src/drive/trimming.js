@@ -1,5 +1,5 @@
 import { distance_m, median } from './geometry.js';
-import { JumpFilter, fixError_m, fixesInRow, isReachable, placeOf } from './places.js';
+import { believed, fixError_m, fixesInRow, isReachable, placeOf } from './places.js';
 import { fixColumn, fixWidth, rowsOf } from './samples.js';
 
 // The rule that `macadam import` follows for cars of other people (docs/privacy.md): 300 m and a random 0 to
@@ -27,11 +27,10 @@ export function fixTimes_ms(fixes) {
   });
 }
 
-function placesOf(fixes) {
+// All fixes as places, in the order of time.
+export function placesOf(fixes) {
   const times_ms = fixTimes_ms(fixes);
-  const places = [...rowsOf(fixes, fixWidth)].map((row, i) => placeOf(row, times_ms[i])).sort((a, b) => a.t_ms - b.t_ms);
-  const filter = new JumpFilter();
-  return places.flatMap((place) => filter.add(place));
+  return [...rowsOf(fixes, fixWidth)].map((row, i) => placeOf(row, times_ms[i])).sort((a, b) => a.t_ms - b.t_ms);
 }
 
 // Index past the fixes that stay at the place of fix `anchor`.
@@ -93,7 +92,7 @@ function firstAway(places, from, step, length_m) {
 //
 // draws: numbers in [0, 1), drawn once for each trip, so that a second look tells no more than the first.
 export function keptTimes(fixes, draws) {
-  const places = placesOf(fixes);
+  const places = believed(placesOf(fixes));
   if (places.length === 0) {
     return [];
   }

@@ -1,6 +1,7 @@
-import { fixTimes_ms, keptTimes, trimmed_m } from './trimming.js';
+import { keptTimes, placesOf, trimmed_m } from './trimming.js';
 import { Odometer } from './odometer.js';
-import { fixColumn, fixWidth, motionWidth, rowsOf } from './samples.js';
+import { plausible } from './places.js';
+import { fixColumn, motionWidth, rowsOf } from './samples.js';
 
 // Writes the format 'macadam-trip 1' (docs/reference/trip-logs.md).
 
@@ -37,10 +38,10 @@ function motionRows(motion, isKept, sign) {
   return { withGravity, rows: increasing(rows) };
 }
 
+// Without jumps of the receiver: they may show a place that the trip did not pass.
 function fixRows(fixes, isKept) {
-  const times_ms = fixTimes_ms(fixes);
-  const rows = [...rowsOf(fixes, fixWidth)].map((row, i) => ({
-    t_us: Math.round(times_ms[i] * 1000),
+  const rows = plausible(placesOf(fixes)).map(({ t_ms, row }) => ({
+    t_us: Math.round(t_ms * 1000),
     cells: [
       row[fixColumn.lat], row[fixColumn.lon], row[fixColumn.alt], row[fixColumn.accuracy], row[fixColumn.altAccuracy],
       row[fixColumn.speed], row[fixColumn.course], row[fixColumn.stamp_ms] / 1000,

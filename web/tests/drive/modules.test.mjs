@@ -143,6 +143,27 @@ test('the log is a macadam-trip 1 that states its trimming and its car', () => {
   assert.ok(Math.abs(log.length_m - 1120) < 11, `${log.length_m}`);
 });
 
+// Columns lat_deg and lon_deg of a log, in metres from home.
+function placesIn(log) {
+  const lines = log.parts.join('').split('\n').filter((line) => !line.startsWith('#'));
+  const [lat, lon] = ['lat_deg', 'lon_deg'].map((name) => lines[0].split(',').indexOf(name));
+  return lines.slice(1).map((line) => line.split(',')).filter((cells) => cells[lat])
+    .map((cells) => ({ x: (Number(cells[lon]) - home.lon) * lat_m * Math.cos((home.lat * Math.PI) / 180), y: (Number(cells[lat]) - home.lat) * lat_m }));
+}
+
+test('jumps of the receiver are not in the log, poor positions on the way are', () => {
+  for (const jump of [1, 2]) { // fixes in a row
+    const fixes = drive([100, east(0)], [jump, stand(-4000)], [100 - jump, east(1000 + speed_mps * jump)]);
+    fixes[9 * 80 + 4] = 65; // m
+    fixes.set([0, 0, 5], 9 * 85 + 2); // a receiver that knows nothing
+    fixes.set([fixes[9 * 90 + 2] + 0.03, fixes[9 * 90 + 3], 4000], 9 * 90 + 2); // the place of a mast 3 km away
+    const places = placesIn(tripLog({ motion: motion(20000), fixes, upright: 1 }, meta));
+    assert.equal(places.length, 113 - jump - 2);
+    assert.ok(places.every(({ x, y }) => x > 400 && x < 1600 && Math.abs(y) < 1), JSON.stringify(places));
+    assert.ok(places.some(({ x }) => Math.abs(x - 800) < 1));
+  }
+});
+
 test('times in the log increase, whatever order the samples came in', () => {
   const samples = motion(20000);
   samples.copyWithin(50000, 60000, 60010); // a reading twice, out of order
