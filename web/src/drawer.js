@@ -1,5 +1,6 @@
 // What is known of a road that was picked.
 import { classScale, history, historyTable, seen } from './charts.js';
+import { csvRow } from './csv.js';
 import { parseId } from './data.js';
 import { download, el } from './dom.js';
 import { link } from './state.js';
@@ -20,7 +21,6 @@ export const neighbour = (id, step) => {
   return next < 0 ? null : `${way}${backward ? '-' : '+'}${String(next).padStart(4, '0')}`;
 };
 
-const cell = (value) => (value === null || value === undefined ? '' : /[",\n]/.test(String(value)) ? `"${String(value).replaceAll('"', '""')}"` : String(value));
 const withoutLists = ([, value]) => typeof value !== 'object' || value === null;
 
 // Segments as rows of CSV; the first call for a file has the names of the columns.
@@ -29,12 +29,12 @@ export function csvRows(segments, withHead) {
     const [lon, lat] = segment.line[0];
     return [...Object.entries(segment).filter(withoutLists), ['lon_deg', lon], ['lat_deg', lat]];
   });
-  const head = withHead && rows.length > 0 ? [rows[0].map(([name]) => name).join(',')] : [];
-  return [...head, ...rows.map((row) => row.map(([, value]) => cell(value)).join(','))].map((line) => `${line}\n`).join('');
+  const head = withHead && rows.length > 0 ? [rows[0].map(([name]) => name)] : [];
+  return [...head, ...rows.map((each) => each.map(([, value]) => value))].map(csvRow).join('');
 }
 
 function historyCsv({ segment, months }) {
-  return ['segment,month,iri,iri_sd,iri_low,iri_high,passes,vehicles\n', ...months.map((each) => `${[segment, ...Object.values(each)].join(',')}\n`)];
+  return ['segment,month,iri,iri_sd,iri_low,iri_high,passes,vehicles\n', ...months.map((each) => csvRow([segment, ...Object.values(each)]))];
 }
 
 const row = (label, ...value) => [el('dt', {}, label), el('dd', {}, ...value)];

@@ -1,5 +1,6 @@
 // Roughness along a route: the drawing by distance, its two movable ends, and the table of the same.
 import { profile } from './charts.js';
+import { csvRow } from './csv.js';
 import { download, el, replace } from './dom.js';
 import { interval, iri, iriUnit, metres, roadLength, roadName, w } from './words.js';
 
@@ -28,11 +29,9 @@ export function partOf(steps, from, to) {
   return { metres: sums.metres, iri: mean('iri'), iri_low: mean('iri_low'), iri_high: mean('iri_high'), worst };
 }
 
-const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-
 function csv(steps) {
   return ['from_m,to_m,segment,name,iri,iri_low,iri_high,passes\n', ...steps.map(({ segment: each, from, to }) =>
-    `${from.toFixed(1)},${to.toFixed(1)},${each.segment},${quoted(each.name ?? '')},${each.iri},${each.iri_low},${each.iri_high},${each.passes}\n`)];
+    csvRow([from.toFixed(1), to.toFixed(1), each.segment, each.name, each.iri, each.iri_low, each.iri_high, each.passes]))];
 }
 
 function table(steps, open) {

@@ -3,6 +3,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { after, before, describe, test } from 'node:test';
 import { join } from 'node:path';
+import { csvRows } from '../src/drawer.js';
 import { addFeatures, newNetwork, routeAlong } from '../src/network.js';
 import { served } from './served.mjs';
 import { world } from './browser.mjs';
@@ -51,6 +52,21 @@ describe('a site in a folder', { timeout: 300_000 }, () => {
   test('has own code of at most 80 kB gzipped', () => {
     const sizes = ['site.js', 'site.css'].map((name) => gzipSync(readFileSync(join(town.folder, 'site/assets', name))).length);
     assert.ok(sizes[0] + sizes[1] < 80_000, String(sizes));
+  });
+});
+
+describe('rows of CSV', () => {
+  const rows = (name) => csvRows([{ segment: '7+0000', name, trend_per_year: -0.1, months: [], line: [[16, 48]] }], false);
+
+  test('give a spreadsheet no formula, and keep numbers with a sign', () => {
+    for (const name of ['=HYPERLINK("http://example.org";"A")', '+1', '-1', '@SUM(A1)', '\t=1', '\r=1']) {
+      assert.equal(rows(name), `7+0000,"'${name.replaceAll('"', '""')}",-0.1,16,48\n`);
+    }
+  });
+
+  test('quote what would end a cell', () => {
+    assert.equal(rows('A, "B"\r\nC'), '7+0000,"A, ""B""\r\nC",-0.1,16,48\n');
+    assert.equal(rows(null), '7+0000,,-0.1,16,48\n');
   });
 });
 
