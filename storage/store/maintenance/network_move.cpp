@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
@@ -223,6 +224,32 @@ void rename_rows(Database& database,
     }
 }
 
+// Old segments of which earlier passes never count, because the map before cut them anew: no
+// publication that knew them has a figure of them.
+constexpr const char* recut_segments =
+    "SELECT until.segment FROM temp.old_segment AS old"
+    " CROSS JOIN published_until AS until ON until.segment = old.fid"
+    " WHERE (SELECT min(figure.publication) FROM published_figure AS figure"
+    " WHERE figure.segment = old.fid) > (SELECT max(number) FROM publication"
+    " WHERE last_segment < old.fid)";
+
+/// Withdraws what was published of segments that an earlier map cut anew. Under a new row, they
+/// would be taken for segments all of whose passes count.
+void withdraw_recut_segments(Database& database) {
+    database.run(fmt::format("CREATE TEMP TABLE recut_segment AS {}", recut_segments));
+    for (const auto* column : {"published_state.fid",
+                               "published_until.segment",
+                               "published_pending.segment",
+                               "published_figure.segment"}) {
+        const std::string_view name{column};
+        database.run(fmt::format("DELETE FROM {} WHERE {} IN (SELECT segment FROM"
+                                 " temp.recut_segment)",
+                                 name.substr(0, name.find('.')),
+                                 name));
+    }
+    database.run("DROP TABLE temp.recut_segment");
+}
+
 /// Moves the dates from which passes count. A new segment inherits a date that applied to half of
 /// it, or the later of two dates.
 void move_valid_from(Database& database, const SegmentCorrespondences& correspondences) {
@@ -311,6 +338,7 @@ MovedPasses move_to_network(Database& database,
     moved.lost_sections = move_control_sections(database, correspondences);
     rename_rows(database, correspondences, "segment_state", "fid");
     rename_rows(database, correspondences, "state_change", "segment");
+    withdraw_recut_segments(database);
     rename_rows(database, correspondences, "published_state", "fid");
     rename_rows(database, correspondences, "published_until", "segment");
     rename_rows(database, correspondences, "published_pending", "segment");

@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -18,6 +19,7 @@ namespace macadam {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using testing::day_ms;
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -25,7 +27,9 @@ using testing::february_ms;
 using ::testing::Gt;
 using ::testing::HasSubstr;
 using testing::january_ms;
+using ::testing::Key;
 using ::testing::Lt;
+using ::testing::Not;
 using ::testing::Pair;
 using testing::refusal_of;
 using ::testing::SizeIs;
@@ -51,6 +55,13 @@ RoadNetwork newer_roads() {
     return build_network(std::move(ways));
 }
 
+/// The same with another number of the road that was cut.
+RoadNetwork newest_roads() {
+    auto ways = copies_of_ways(newer_roads());
+    std::ranges::find(ways, 2, &Way::id)->id = 40;
+    return build_network(std::move(ways));
+}
+
 class CrowdOfTwoMaps : public ::testing::Test {
 protected:
     void drive(int car, std::int64_t utc_ms, IriUm iri_um) {
@@ -58,7 +69,7 @@ protected:
         record.vehicle_id = "car " + std::to_string(car);
         record.t0_utc_ms = utc_ms;
         std::vector<Pass> passes;
-        for (const auto way : {1, 2, 20, 3, 30, 4}) {
+        for (const auto way : {1, 2, 40, 20, 3, 30, 4}) {
             add_passes_of(way, iri_um, passes);
         }
         testing::add_trip(store_, record, passes);
@@ -73,8 +84,7 @@ protected:
         now_ms_ += month_ms;
         return store_.maintenance.publish(roads_, now_ms_).changed;
     }
-    void update_map() {
-        auto after = newer_roads();
+    void update_map(RoadNetwork after = newer_roads()) {
         store_.maintenance.update_network(
             roads_, after, change_between(roads_, after), {"newer map", ""});
         roads_ = std::move(after);
@@ -142,6 +152,26 @@ TEST_F(CrowdOfTwoMaps, PublishesNoPassAgainThatAnEarlierMapHad) {
     drive_all(5, january_ms + 12 * month_ms, 2200);
     EXPECT_GT(publish(), 0U);
     EXPECT_THAT(seen().at(2), Each(AllOf(Gt(2100), Lt(2200))));
+}
+
+TEST_F(CrowdOfTwoMaps, PublishesNoPassAgainThoughANewestMapRenumbersTheRoadThatWasCut) {
+    drive_all(5, january_ms, 2000);
+    publish();
+    drive(5, january_ms + day_ms, 9000); // waits, alone
+    store_.importer.refresh();
+    publish();
+    update_map();
+    drive_all(5, january_ms + 3 * month_ms, 2100);
+    publish();
+    ASSERT_THAT(seen().at(2), Each(2100));
+    ASSERT_THAT(seen().at(20), Each(2100));
+    update_map(newest_roads());
+    EXPECT_THAT(seen(), AllOf(Not(Contains(Key(40))), Contains(Key(20)), Contains(Key(30))));
+    drive_all(5, january_ms + 4 * month_ms, 2200);
+    publish();
+    EXPECT_THAT(seen().at(40), Each(2200)); // nothing of the six cars before the first update
+    EXPECT_THAT(seen().at(20), Each(AllOf(Gt(2100), Lt(2200))));
+    EXPECT_THAT(seen().at(30), Each(AllOf(Gt(2000), Lt(2200)))); // was never cut
 }
 
 TEST_F(CrowdOfTwoMaps, PublishesPassesThatNoPublicationSawBefore) {

@@ -2,6 +2,7 @@
 // month after month the same as those of a file of the same key, which sees all.
 
 #include "mapping/conflation/network_conflation.hpp"
+#include "mapping/network/build_network.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/crowd_drives.hpp"
 #include "support/roads/engine_world.hpp"
@@ -20,6 +21,11 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::IsEmpty;
+using ::testing::Lt;
+using ::testing::SizeIs;
 
 constexpr std::int64_t month_ms = 31 * day_ms;
 
@@ -87,13 +93,25 @@ public:
     }
 
     /// The last road leaves the map, or comes again.
-    void update_map(bool has_last) {
-        const auto newer = roads_in_a_row(road_count_ - (has_last ? 0 : 1));
+    void update_map(bool has_last) { update_map(roads_in_a_row(road_count_ - (has_last ? 0 : 1))); }
+
+    void update_map(const RoadNetwork& newer) {
         const auto change = change_between(roads_, newer);
         on_both([&](StoreMaintenance& store) {
             store.update_network(roads_, newer, change, {"newer map", ""});
         });
         roads_ = newer;
+    }
+
+    /// Published values of a road.
+    std::vector<IriUm> seen_on(std::int64_t way) const {
+        SegmentFilter filter;
+        filter.way_id = way;
+        std::vector<IriUm> values;
+        database_.read(Audience::anyone).visit(filter, [&](const SegmentRecord& record) {
+            values.push_back(record.state->iri_um);
+        });
+        return values;
     }
 
     RoadStore to_publish() const { return database_.to_publish(); }
@@ -186,6 +204,44 @@ TEST(PartToPublish, FollowsNewMaps) {
         }
         crowd.publish();
     }
+}
+
+/// Six roads in a row, the second of which ends 4 m later, and the third begins there.
+std::vector<Way> recut_ways() {
+    auto ways = copies_of_ways(roads_in_a_row(6));
+    auto& end = ways.at(1).line.back();
+    end.lon_deg += 0.00005;
+    ways.at(2).line.front() = end;
+    return ways;
+}
+
+TEST(PartToPublish, ShowsNoPassFromBeforeARoadWasCutAnewThoughItIsRenumberedLater) {
+    CrowdServer crowd{6};
+    const auto drive_all = [&](int first_road, IriUm iri_um) {
+        for (int car = 0; car < 5; ++car) {
+            crowd.drive(car, first_road, 6, iri_um);
+        }
+        crowd.import();
+        crowd.publish();
+    };
+    drive_all(1, 2000);
+    crowd.drive(5, 1, 6, 9000); // waits, alone
+    crowd.import();
+    crowd.publish();
+    auto ways = recut_ways();
+    crowd.update_map(build_network(recut_ways()));
+    EXPECT_THAT(crowd.seen_on(2), IsEmpty());
+    drive_all(1, 2100);
+    ASSERT_THAT(crowd.seen_on(2), AllOf(SizeIs(10), Each(2100)));
+    for (auto& way : ways) {
+        way.id += 10;
+    }
+    crowd.update_map(build_network(std::move(ways)));
+    EXPECT_THAT(crowd.seen_on(12), IsEmpty());
+    EXPECT_THAT(crowd.seen_on(14), SizeIs(10)); // was not cut
+    drive_all(11, 2200);
+    EXPECT_THAT(crowd.seen_on(12), AllOf(SizeIs(10), Each(2200)));
+    EXPECT_THAT(crowd.seen_on(14), AllOf(SizeIs(10), Each(Lt(2200))));
 }
 
 /// Country of so many towns, of which one was driven since the first publication.
