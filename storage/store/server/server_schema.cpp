@@ -93,6 +93,7 @@ std::vector<Migration> migrations() {
     all.push_back({6, "marks of each trip", marks_migration_sql});
     all.push_back({7, "publications of crowds", publications_migration_sql()});
     all.push_back({8, "removal of old changes", old_changes_migration_sql});
+    all.push_back({9, "times of passes of the whole", seen_migration_sql});
     return all;
 }
 

@@ -241,6 +241,14 @@ CREATE INDEX IF NOT EXISTS state_change_audit ON macadam.state_change USING brin
 COMMENT ON INDEX macadam.state_change_audit IS 'Values by operation, to remove old ones';
 )";
 
+// What commands that read a part ask of the whole.
+const char* const seen_migration_sql = R"(
+CREATE INDEX IF NOT EXISTS segment_state_first_seen ON macadam.segment_state (first_seen_ms);
+CREATE INDEX IF NOT EXISTS segment_state_last_seen ON macadam.segment_state (last_seen_ms);
+COMMENT ON INDEX macadam.segment_state_first_seen IS 'The first pass of all';
+COMMENT ON INDEX macadam.segment_state_last_seen IS 'The last pass of all';
+)";
+
 namespace {
 
 // A crowd's raw logs leave the object store whatever became of them.

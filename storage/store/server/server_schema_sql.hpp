@@ -27,4 +27,7 @@ std::string publications_migration_sql();
 /// Migration 8: old changes of values are removed.
 extern const char* const old_changes_migration_sql;
 
+/// Migration 9: times of the first and last pass are found by indexes.
+extern const char* const seen_migration_sql;
+
 } // namespace macadam

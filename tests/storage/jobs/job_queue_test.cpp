@@ -410,7 +410,7 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
                 " INSERT INTO macadam.chunk_dirty (chunk, since_ms) VALUES (7, 0);"
                 " DELETE FROM macadam.migration WHERE number > 1");
     EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
-                AllOf(HasSubstr("its schema is of version 1, expected 8"),
+                AllOf(HasSubstr("its schema is of version 1, expected 9"),
                       HasSubstr("macadam upgrade postgresql://")));
     EXPECT_EQ(upgrade_server_schema(queue()), 1);
     EXPECT_EQ(upgrade_server_schema(queue()), server_schema_version);

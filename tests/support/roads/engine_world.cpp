@@ -1,5 +1,6 @@
 #include "support/roads/engine_world.hpp"
 
+#include "storage/postgres/server_connection.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
@@ -8,6 +9,8 @@
 #include "support/roads/store_world.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace macadam::testing {
 
@@ -39,6 +42,21 @@ ImportStore EngineDatabase::import() const {
 StoreReader EngineDatabase::read(Audience audience) const {
     return server_ ? StoreReader{open_server_reader(name_, {}, audience, {}, {})}
                    : StoreReader::open(name_, {}, audience);
+}
+
+std::vector<std::string> EngineDatabase::scans_of(const std::string& names) const {
+    ServerConnection boss{server_.value().address("roads")};
+    while (boss.number("SELECT count(*) FROM pg_stat_activity WHERE backend_type = 'client"
+                       " backend' AND pid <> pg_backend_pid()") > 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{10}); // the time limit ends it
+    }
+    std::vector<std::string> scans;
+    for (const auto& row : boss.rows("SELECT relname || ' ' || seq_scan FROM pg_stat_user_tables"
+                                     " WHERE schemaname = 'macadam' AND relname ~ $1 ORDER BY 1",
+                                     {names})) {
+        scans.push_back(row[0].value());
+    }
+    return scans;
 }
 
 std::filesystem::path EngineDatabase::key_file() const {

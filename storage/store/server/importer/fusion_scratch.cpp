@@ -97,8 +97,6 @@ void FusionScratch::add_segments(std::span<const std::int64_t> chunks) {
 /// Copies what fusion looks up besides drives.
 void FusionScratch::copy_rules(const ChunkConditions& conditions) {
     copy_rows("fusion_setting", "");
-    copy_rows("calibration", "");
-    copy_rows("calibration_period", "");
     copy_rows("valid_from", " WHERE " + conditions.segments);
 }
 
@@ -168,8 +166,14 @@ void FusionScratch::copy_drives(const ChunkConditions& conditions) {
     }
 }
 
-/// Copies what fusion looks up of trips. Drives on other servers count only if their trip is here.
+/// Copies what fusion looks up of trips and their cars. Drives on other servers count only if their
+/// trip is here.
 void FusionScratch::copy_trips(std::span<const std::int64_t> trips) {
+    const auto of_cars =
+        fmt::format(" WHERE vehicle IN (SELECT vehicle FROM macadam.trip WHERE id IN ({}))",
+                    fmt::join(trips, ", "));
+    copy_rows("calibration", of_cars);
+    copy_rows("calibration_period", of_cars);
     auto insert = memory_.prepare(
         "INSERT INTO trip (id, sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,"
         " method, distance_mm, matched_mm, rows_read, rows_used, reference_ppm)"

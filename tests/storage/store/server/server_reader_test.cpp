@@ -277,5 +277,37 @@ TEST_F(ServerReaders, LeadANameToTheCopy) {
     EXPECT_EQ(file.file(), folder_ / "roads.gpkg");
 }
 
+TEST_F(ServerReaders, FindPlacesByIndexes) {
+    const std::string tables = "^(segment|drive|segment_state)_\\d+$|^(trip|vehicle|way|event"
+                               "|event_search|chunk_state|calibration|calibration_period)$";
+    {
+        const auto import = database_.import();
+        for (int number = 0; number < 4; ++number) {
+            add_rich_trip(*import.trips, number);
+        }
+        fuse_all(*import.trips);
+        // Tables are small here.
+        ServerConnection{database_.name()}.run("ALTER DATABASE roads SET enable_seqscan = off");
+    }
+    const auto before = database_.scans_of(tables);
+    ASSERT_GE(before.size(), 12U);
+    SegmentFilter box, way, one;
+    box.box = GeoBox{-180, -90, 180, 90};
+    way.way_id = 1;
+    one.key = SegmentKey{1, true, 0};
+    for (const auto& filter : {box, way, one}) {
+        ServerConnection reader{database_.name()};
+        ServerTransaction one_moment{reader, true};
+        const auto chunks = chunks_for(reader, filter);
+        EXPECT_THAT(chunks, Not(IsEmpty()));
+        for (const bool passes : {false, true}) {
+            const StoreReader part{
+                open_server_part(reader, chunks, {.passes = passes}, Audience::operator_, {}, {})};
+            EXPECT_TRUE(part.seen().last_ms);
+        }
+    }
+    EXPECT_EQ(database_.scans_of(tables), before);
+}
+
 } // namespace
 } // namespace macadam::testing

@@ -221,7 +221,7 @@ TEST_F(StoreCopies, RefuseWhatTheyCannotTake) {
                 HasSubstr("roads.gpkg: already exists"));
     change("INSERT INTO macadam.migration VALUES (99, 'future')");
     EXPECT_THAT(refusal_back(),
-                HasSubstr("its schema is of version 99, expected 8: it was made by "
+                HasSubstr("its schema is of version 99, expected 9: it was made by "
                           "a newer version of Macadam"));
 }
 
