@@ -138,7 +138,7 @@ class Node:
                 "authentication": {"username": "patroni", "password": passwords["patroni"]},
             },
             "ctl": {"authentication": {"username": "patroni", "password": passwords["patroni"]}},
-            "etcd3": {"hosts": [f"{host}:{ETCD_PORT}" for host in hosts]},
+            "etcd": {"hosts": [f"{host}:{ETCD_PORT}" for host in hosts]},
             "bootstrap": {
                 "dcs": {
                     "ttl": TTL_S,
@@ -203,7 +203,7 @@ class Node:
         members = ",".join(f"{node.name}=http://{node.address}:{PEER_PORT}" for node in self.cluster.nodes)
         here, peer = f"http://{self.address}:{ETCD_PORT}", f"http://{self.address}:{PEER_PORT}"
         return {
-            "etcd": ["etcd", "--name", self.name, "--data-dir", str(self.folder / "etcd" / "data"),
+            "etcd": ["etcd", "--enable-v2", "--name", self.name, "--data-dir", str(self.folder / "etcd" / "data"),
                      "--listen-client-urls", here, "--advertise-client-urls", here,
                      "--listen-peer-urls", peer, "--initial-advertise-peer-urls", peer,
                      "--initial-cluster", members, "--initial-cluster-token", "macadam",
