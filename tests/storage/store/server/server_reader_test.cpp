@@ -290,7 +290,7 @@ TEST_F(ServerReaders, FindPlacesByIndexes) {
         ServerConnection{database_.name()}.run("ALTER DATABASE roads SET enable_seqscan = off");
     }
     const auto before = database_.scans_of(tables);
-    ASSERT_GE(before.size(), 12U);
+    ASSERT_GE(before.size(), 11U);
     SegmentFilter box, way, one;
     box.box = GeoBox{-180, -90, 180, 90};
     way.way_id = 1;
