@@ -30,6 +30,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -232,6 +233,34 @@ TEST(TripsApi, ShowsAndDeletesToAContributorHisOwnTripsAlone) {
     EXPECT_EQ(world.ask("DELETE", target, world.anna).status, 204);
     EXPECT_EQ(world.ask("GET", target, world.anna).status, 404);
     EXPECT_EQ(world.spooled(), 0U);
+}
+
+TEST(TripsApi, AnswersForTheTripOfAnotherAsForOneThatNobodySent) {
+    const TakingWorld world;
+    ASSERT_EQ(world.put("a log of anna", world.anna).status, 202);
+    const auto told = [&](std::string_view method, std::string_view log, std::string_view accept) {
+        auto answer = world.ask(method,
+                                "/v1/trips/" + sha256_of(log),
+                                world.ben,
+                                {},
+                                fmt::format("Accept: {}\r\n", accept));
+        answer.headers.erase("date");
+        return std::tuple{answer.status, answer.headers, answer.body};
+    };
+    for (const auto* const method : {"GET", "HEAD", "DELETE"}) {
+        for (const auto* const accept : {"*/*", "text/event-stream"}) {
+            EXPECT_EQ(told(method, "a log of anna", accept), told(method, "a log", accept))
+                << method << ' ' << accept;
+        }
+    }
+}
+
+TEST(TripsApi, TakesNoTokenFromAnAddress) {
+    const TakingWorld world;
+    for (const auto* const name : {"token", "access_token", "api_key"}) {
+        const auto target = fmt::format("/v1/trips?{}={}", name, world.operator_);
+        EXPECT_EQ(world.ask("GET", target, {}).status, 401) << name;
+    }
 }
 
 TEST(TripsApi, TakesTripsOfItsOperatorAloneUnlessItIsACrowds) {
