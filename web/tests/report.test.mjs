@@ -1,6 +1,7 @@
 // The page of `macadam report` in Debian's Chromium: in both themes, on phones, without scripts, and asking no host.
 import { chromium } from 'playwright-core';
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { createRequire } from 'node:module';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -119,6 +120,35 @@ test('says everything without scripts', async () => {
   assert.equal(await page.locator('main details:not([open])').count(), 0);
   assert.equal(await page.locator('button').count(), 0);
   assert.ok(await page.locator('main table').count() > 3);
+  await close();
+});
+
+test('repeats the head of a long table on each printed page', async () => {
+  const { page, close } = await opened(1440);
+  await page.evaluate(() => {
+    const table = document.querySelector('main table');
+    const row = table.tBodies[0].rows[0];
+    for (let i = 0; i < 150; ++i) table.tBodies[0].append(row.cloneNode(true));
+    table.parentElement.classList.add('long');
+    table.tHead.rows[0].cells[0].querySelector('button').textContent = 'HEADWORD';
+  });
+  const pdf = join(folder, 'printed.pdf');
+  await page.pdf({ path: pdf, preferCSSPageSize: true });
+  const heads = execFileSync('pdftotext', [pdf, '-'], { encoding: 'utf8' }).split('HEADWORD').length - 1;
+  assert.ok(heads >= 3, `${heads}`);
+  await close();
+});
+
+test('keeps a swatch on the line of its word, however narrow the column', async () => {
+  const { page, close } = await opened(320);
+  const lines = await page.evaluate(() => [...document.querySelectorAll('main table')].flatMap((table) => {
+    table.style.width = '1px';
+    return [...table.querySelectorAll('.entry')].map((entry) => {
+      const [swatch, word] = [...entry.children].map((part) => part.getBoundingClientRect());
+      return swatch.top < word.bottom && swatch.bottom > word.top && swatch.right <= word.left;
+    });
+  }));
+  assert.ok(lines.length >= 3 && lines.every(Boolean), `${lines}`);
   await close();
 });
 

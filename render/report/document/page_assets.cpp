@@ -53,6 +53,7 @@ thead .n{white-space:normal}
 .nw{white-space:nowrap}
 .all th,.all td{font-weight:650;border-bottom:0}
 .swatch{width:.85em;height:.85em;margin-right:.5em;vertical-align:-.06em}
+.entry{display:inline-flex;align-items:baseline}.entry .swatch{flex:none;margin-bottom:-.06em}
 .bar{stroke:var(--edge);stroke-width:.6}
 .share{display:block;width:9rem;height:.95rem;margin-top:.12rem;border:1px solid var(--edge)}
 .histogram{display:block;width:100%;max-width:30rem;height:auto;margin:1rem 0}
@@ -110,6 +111,7 @@ nav ol{display:block}nav li{white-space:normal;padding:.3rem 0}}
 )";
 
 constexpr const char* on_a_phone = R"(
+@media screen and (max-width:54rem){th,td{padding:.38rem .5rem}}
 @media screen and (max-width:44rem){.else{display:none}.phone{display:inline}.strip{min-width:42rem}}
 @media screen and (max-width:44rem){details:not([open])>summary{margin:.7rem 0;padding-top:.85rem}}
 @media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
@@ -127,7 +129,7 @@ tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-grou
 .key{grid-template-columns:repeat(3,1fr);gap:.5rem}.key b{font-size:14pt}
 .cards{grid-template-columns:1fr 1fr 1fr;gap:.8rem}.cards figcaption{font-size:8.5pt}
 .map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}
-nav,.save{display:none}summary{list-style:none;break-after:avoid}.strip{break-inside:avoid}}
+nav,.save{display:none}th button{display:contents}summary{list-style:none;break-after:avoid}.strip{break-inside:avoid}}
 )";
 
 /// Returns rules that turn rows into blocks of titles and values on screens too narrow for columns.

@@ -68,7 +68,12 @@ std::string swatch_html(std::uint32_t rgb, std::optional<std::uint32_t> dark_rgb
 
 std::string html_of(const Cell& cell) {
     if (cell.shares.empty()) {
-        return (cell.swatch ? swatch_html(*cell.swatch) : "") + html_of(cell.text);
+        const auto text = html_of(cell.text);
+        // A box of their own: a narrow column would part the swatch from its word.
+        return cell.swatch ? fmt::format("<span class=\"entry\">{}<span>{}</span></span>",
+                                         swatch_html(*cell.swatch),
+                                         text)
+                           : text;
     }
     std::string bars;
     double x = 0;
