@@ -22,7 +22,7 @@ bool is_moderate(const PictureSize& size) {
 std::vector<PictureSize> other_shapes(const PictureSize& size) {
     const double area_px = double(size.width_px) * size.height_px;
     std::vector<PictureSize> sizes;
-    for (const double shape : {1.2, 1.5, 1.0, 1 / 1.5, 2.0, 1 / 2.0, 2.4, 1 / 2.4}) {
+    for (const double shape : {1.2, 1.5, 1.0, 1 / 1.2, 1 / 1.5, 2.0, 1 / 2.0, 2.4, 1 / 2.4}) {
         auto& other = sizes.emplace_back(size);
         other.width_px = int(std::lround(std::sqrt(area_px * shape)));
         other.height_px = int(std::lround(std::sqrt(area_px / shape)));

@@ -252,6 +252,13 @@ TEST(Sheet, KeepsItsUsualShapeWhereThatSuitsTheData) {
     EXPECT_EQ(size_for(sheet(1000, 9000), {}, usual, {}).width_px, 1600); // asked for
 }
 
+TEST(Sheet, IsHigherThanWideForSquareData) { // title and legend lie above and below
+    const auto square = filled("square", 10'000, 10'000).scene;
+    const auto size = size_for(square, {}, usual, other_shapes(usual));
+    EXPECT_GT(size.height_px, size.width_px);
+    EXPECT_LT((MapPlan{square, {}, size}.empty_share()), 0.25);
+}
+
 TEST(Sheet, BeginsTheBandBesideAThinMapWithTheLegend) {
     TypeSetter setter;
     const auto tall = filled("thin tall", 4000, 20'000).scene;
