@@ -26,8 +26,9 @@ double diagonal_m(const GeoBox& box) {
     return distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
 }
 
-constexpr int cells_per_side = 6;     // of an area's shorter side
-constexpr double min_share = 1.0 / 3; // of the first area's measured length
+constexpr double shows_all_denominator = 6000; // of a detail: its map has all names, too
+constexpr int cells_per_side = 6;              // of an area's shorter side
+constexpr double min_share = 1.0 / 3;          // of the first area's measured length
 constexpr double max_cells = 4e6;
 
 /// Lengths in square cells on the ground, row by row from the south-west.
@@ -142,6 +143,16 @@ std::vector<MeasuredLength> lengths_in(const StoreReader& store, const SegmentFi
         store.visit(all, add);
     }
     return lengths;
+}
+
+/// Tells whether an area has more to show than a road that runs through it.
+bool has_several_roads(const GeoBox& area, const std::vector<MeasuredLength>& measured) {
+    constexpr double both_directions_with_bends = 3; // of the area's diagonal
+    double inside_m = 0;
+    for (const auto& each : measured) {
+        inside_m += contains(area, each.at) ? each.length_m : 0;
+    }
+    return inside_m > both_directions_with_bends * diagonal_m(area);
 }
 
 } // namespace
@@ -278,7 +289,11 @@ void set_details(const StoreReader& store,
                  const SegmentFilter& filter,
                  const DetailRoom& room,
                  MapScene& scene) {
-    for (const auto& area : densest_areas(lengths_in(store, filter), scene.box, room)) {
+    const auto lengths = lengths_in(store, filter);
+    for (const auto& area : densest_areas(lengths, scene.box, room)) {
+        if (room.scale_denominator <= shows_all_denominator && !has_several_roads(area, lengths)) {
+            continue;
+        }
         scene.insets.push_back({.box = area,
                                 .name = place_in(store, area),
                                 .scale_denominator = room.scale_denominator});

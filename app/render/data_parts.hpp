@@ -35,7 +35,8 @@ std::vector<GeoBox> densest_areas(const std::vector<MeasuredLength>& measured,
                                   const DetailRoom& room);
 
 /// Adds the details that a sheet has room for to its scene: areas with most measured roads that a
-/// filter selects, with the names of places in them.
+/// filter selects, with the names of places in them. Where the map names all roads already, an area
+/// with a single one is left out: a detail would tell nothing new.
 void set_details(const StoreReader& store,
                  const SegmentFilter& filter,
                  const DetailRoom& room,

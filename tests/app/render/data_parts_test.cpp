@@ -59,6 +59,18 @@ TEST(DataParts, HaveLettersWhereNoPlaceNamesThem) {
     EXPECT_GT(scene.insets[0].box.south_deg, scene.box.north_deg);
 }
 
+TEST(DataParts, AreNotShownAgainInDetailWhereAMapOfOneRoadNamesAllAlready) {
+    const auto store = measured_far_roads();
+    MapScene scene;
+    scene.box = store.map_box();
+    DetailRoom room{.count = 1, .scale_denominator = 2500, .width_m = 300, .height_m = 200};
+    set_details(store, {}, room, scene);
+    EXPECT_THAT(scene.insets, SizeIs(0));
+    room.scale_denominator = 25'000;
+    set_details(store, {}, room, scene);
+    EXPECT_THAT(scene.insets, SizeIs(1));
+}
+
 TEST(DataParts, AreInTheMiddleOfASheetThatIsTooSmallForAll) {
     const auto store = measured_far_roads();
     MapScene scene;
