@@ -24,6 +24,7 @@ struct PictureSizes {
 constexpr PictureSizes on_screen{1400, 192, 1.1, 480, 144, 0.75};
 constexpr PictureSizes on_paper{2125, 300, 0.65, 1010, 300, 0.54};
 constexpr double min_map_shape = 0.3; // height / width
+constexpr int map_band_px = 400;      // rows drawn at once: beside a million roads there is no room
 
 constexpr double min_margin_m = 60;   // around a section: the next side streets
 constexpr double margin_share = 0.25; // share of its extent
@@ -43,6 +44,7 @@ PictureSize map_size(const GeoBox& box, PictureUse use) {
         std::clamp(height_m / std::max(width_m, 1.0), min_map_shape, sizes.max_map_shape);
     return {.width_px = sizes.map_width_px,
             .height_px = static_cast<int>(sizes.map_width_px * shape),
+            .band_px = map_band_px,
             .px_per_inch = sizes.map_px_per_inch};
 }
 
