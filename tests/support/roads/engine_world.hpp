@@ -34,7 +34,7 @@ public:
     RoadStore to_publish() const;
     Forgotten forget(const ForgetRequest& request) const;
 
-    /// How often tables of a server with such names were read from begin to end, as an
+    /// Tells how often tables of a server with such names were read from begin to end, as an
     /// administrator would see in EXPLAIN of each statement. Waits for all other connections to
     /// have ended: then the server has told what they counted.
     ///
