@@ -9,9 +9,8 @@ import time
 import psycopg2
 
 from ledger import hash_of, store
-from nodes import DATABASE_PORT, programs, run, send, tree
+from nodes import programs, send, tree
 
-STANZA = "macadam"
 RESTORED_PORT = 15433
 AGAIN = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "forget_listed.sql"
 
@@ -26,28 +25,6 @@ DELETE FROM macadam.trip WHERE sha256 = %(hash)s;
 class Backup:
     def __init__(self, cluster):
         self.cluster = cluster
-        self.repository = cluster.folder / "backup"
-
-    def configure(self):
-        """From now on each server sends its WAL (nodes.py): all into one repository, which is no part of a server."""
-        self.repository.mkdir(mode=0o700)
-        for node in self.cluster.nodes:
-            (node.folder / "pgbackrest.conf").write_text(
-                f"[global]\nrepo1-path={self.repository}\nrepo1-retention-full=2\nstart-fast=y\nprocess-max=1\n"
-                f"log-level-file=off\nlog-level-console=warn\nlock-path={node.folder}/lock\nspool-path={node.folder}/spool\n"
-                f"compress-type=zst\n[{STANZA}]\npg1-path={node.data}\npg1-port={DATABASE_PORT}\n"
-                f"pg1-socket-path={node.folder}\npg1-user=postgres\n")
-
-    def command(self, node, *words):
-        environment = {"PATH": f"{programs()}:/usr/bin:/bin", "PGPASSFILE": str(self.cluster.folder / "pgpass"),
-                       "LC_ALL": "C.UTF-8"}
-        return run(*node.as_user(["pgbackrest", f"--config={node.folder}/pgbackrest.conf", f"--stanza={STANZA}", *words]),
-                   env=environment, cwd="/", timeout=300)
-
-    def take(self):
-        node = self.cluster.primary()
-        self.command(node, "stanza-create")
-        self.command(node, "--type=full", "backup")
 
     def finish_wal(self):
         """Waits until all that was committed is in the repository."""
@@ -70,7 +47,7 @@ class Backup:
         data = self.cluster.folder / "restored"
         shutil.rmtree(data, ignore_errors=True)
         data.mkdir(mode=0o700)
-        self.command(node, f"--pg1-path={data}", "--type=time", f"--target={moment}", "--target-action=promote", "restore")
+        node.pgbackrest(f"--pg1-path={data}", "--type=time", f"--target={moment}", "--target-action=promote", "restore")
         settings = {"port": RESTORED_PORT, "listen_addresses": node.address, "unix_socket_directories": "",
                     "archive_mode": "off", "synchronous_standby_names": "", "primary_conninfo": "", "primary_slot_name": ""}
         with (self.cluster.folder / "restored.log").open("wb") as log:
@@ -106,8 +83,7 @@ class Backup:
 def restored_to_a_moment(trial, templates):
     """The digest is that of the moment, and who was forgotten later is forgotten again."""
     backup = Backup(trial.cluster)
-    backup.configure()
-    backup.take()
+    trial.cluster.primary().pgbackrest("--type=full", "backup")
     trial.say("backup taken")
     first = 1_000_000  # trips that nobody else stores
     connection = trial.cluster.connect("ledger")

@@ -175,9 +175,9 @@ class Clients:
                 raise RuntimeError("a client does not end")
         self.history.close()
 
-    def longest_stall_s(self):
-        """Longest time in which no client was told anything good."""
-        times = [self.began, *sorted(self.answers), self.ended]
+    def longest_stall_s(self, faults=()):
+        """Longest time in which no client was told anything good, and no fault began."""
+        times = sorted([self.began, *self.answers, *faults, self.ended])
         return max(after - before for before, after in zip(times, times[1:]))
 
 

@@ -5,7 +5,7 @@ import time
 
 import psycopg2
 
-from nodes import NAMES, send
+from nodes import NAMES, WAL_KEPT_MIB, send
 
 SHORT_S, LONG_S = 8, 26
 
@@ -23,8 +23,9 @@ class Nemesis:
 
     def faults(self):
         everywhere = [self.kill_postgres, self.kill_postgres_and_patroni, self.switch_primary_off, self.switch_standby_off,
-                      self.freeze_primary, self.freeze_standby, self.kill_etcd, self.freeze_etcd_majority,
-                      self.cancel_waiting_commits, self.end_backends, self.switch_over, self.lose_unsent_commits]
+                      self.leave_standby_behind, self.freeze_primary, self.freeze_standby, self.kill_etcd,
+                      self.freeze_etcd_majority, self.cancel_waiting_commits, self.end_backends, self.switch_over,
+                      self.lose_unsent_commits]
         isolated = [self.cut_primary_off, self.cut_primary_off_its_peers, self.cut_standby_off,
                     self.fill_disk_of_primary, self.fill_disk_of_standby]
         return everywhere + (isolated if self.cluster.isolated else [])
@@ -51,9 +52,13 @@ class Nemesis:
         raise RuntimeError(f"no primary for a minute:\n{self.cluster.list()}")
 
     def standby(self, synchronous):
-        streaming, waited_for = self.cluster.standbys()
-        names = waited_for if synchronous and waited_for else streaming
-        return self.cluster.nodes[NAMES.index(self.random.choice(names))]
+        for _ in range(120):
+            following, waited_for = self.cluster.standbys()
+            if following:
+                names = waited_for if synchronous and waited_for else sorted(following)
+                return self.cluster.nodes[NAMES.index(self.random.choice(names))]
+            time.sleep(0.5)
+        raise RuntimeError(f"no standby for a minute:\n{self.cluster.list()}")
 
     def lasting(self):
         """Below and above the time after which another primary is chosen."""
@@ -79,6 +84,23 @@ class Nemesis:
 
     def switch_standby_off(self):
         self.switched_off(self.standby(synchronous=True))
+
+    def leave_standby_behind(self):
+        """Switches a standby off until nobody keeps WAL for it any more, which then is in the archive alone."""
+        node = self.standby(synchronous=False)
+        node.off = {"etcd", "patroni"}
+        send(node.pids(), signal.SIGKILL)
+        time.sleep(LONG_S)
+        try:
+            connection = self.cluster.connect("postgres", "postgres")
+            connection.autocommit = True
+            with connection.cursor() as cursor:
+                for _ in range(WAL_KEPT_MIB // 16 + 4):
+                    cursor.execute("SELECT pg_logical_emit_message(false, '', repeat('x', 1 << 24)), pg_switch_wal()")
+                cursor.execute("CHECKPOINT")
+            connection.close()
+        finally:
+            node.off = set()
 
     def kill_etcd(self):
         send(self.random.choice(self.cluster.nodes).pids("etcd"), signal.SIGKILL)

@@ -20,8 +20,10 @@ import yaml
 
 NAMES = ("n1", "n2", "n3")
 DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
+STANZA = "macadam"
 TTL_S = 20  # the shortest that Patroni's manual allows
 DISK_MIB = 700
+WAL_KEPT_MIB = 64
 ROLES = ("postgres", "replicator", "rewinder", "patroni", "macadam")
 
 
@@ -98,6 +100,7 @@ class Node:
         self.address = f"10.77.0.{number + 1}" if cluster.isolated else f"127.0.77.{number + 1}"
         self.folder = cluster.folder / self.name
         self.data = self.folder / "disk" / "data"
+        self.backups = self.folder / "pgbackrest.conf"
         self.link = f"port{number + 1}"
         self.holder = None  # process that keeps the network namespace
         self.running = {}  # program: its process
@@ -121,6 +124,11 @@ class Node:
             run(*inside, "link", "set", "lo", "up")
             run(*inside, "addr", "add", f"{self.address}/24", "dev", "eth0")
             run(*inside, "link", "set", "eth0", "up")
+        self.backups.write_text(
+            f"[global]\nrepo1-path={self.cluster.repository}\nrepo1-retention-full=2\nstart-fast=y\nprocess-max=1\n"
+            f"log-level-file=off\nlog-level-console=warn\nlock-path={self.folder}/lock\nspool-path={self.folder}/spool\n"
+            f"compress-type=zst\n[{STANZA}]\npg1-path={self.data}\npg1-port={DATABASE_PORT}\n"
+            f"pg1-socket-path={self.folder}\npg1-user=postgres\n")
         (self.folder / "patroni.yml").write_text(yaml.safe_dump(self.settings(), sort_keys=False))
         (self.folder / "patroni.yml").chmod(0o600)
 
@@ -128,6 +136,7 @@ class Node:
         """Patroni's configuration: docs/cluster.md explains it."""
         passwords = self.cluster.passwords
         hosts = [node.address for node in self.cluster.nodes]
+        backups = f"pgbackrest --config={self.backups} --stanza={STANZA}"
         network = "10.77.0.0/24" if self.cluster.isolated else "127.0.0.0/8"
         return {
             "scope": "macadam",
@@ -150,18 +159,18 @@ class Node:
                     "failsafe_mode": True,
                     "postgresql": {
                         "use_pg_rewind": True,
+                        "remove_data_directory_on_rewind_failure": True,
                         "use_slots": True,
                         "parameters": {
                             "max_connections": 60,
                             "wal_level": "replica",
                             "archive_mode": True,
                             "archive_timeout": "5min",
-                            "archive_command": "test ! -e ../../pgbackrest.conf || pgbackrest --stanza=macadam"
-                                               " --config=$(realpath ../../pgbackrest.conf) archive-push %p",
                             "wal_log_hints": True,
                             "max_wal_size": "128MB",
-                            "wal_keep_size": "64MB",
+                            "wal_keep_size": f"{WAL_KEPT_MIB}MB",
                             "max_slot_wal_keep_size": "256MB",
+                            "wal_retrieve_retry_interval": "1s",
                             "wal_sender_timeout": "5s",
                             "wal_receiver_timeout": "5s",
                         },
@@ -181,7 +190,9 @@ class Node:
                     "replication": {"username": "replicator", "password": passwords["replicator"]},
                     "rewind": {"username": "rewinder", "password": passwords["rewinder"]},
                 },
+                "recovery_conf": {"restore_command": f"{backups} archive-get %f %p"},
                 "parameters": {
+                    "archive_command": f"{backups} archive-push %p",
                     "unix_socket_directories": str(self.folder),
                     "password_encryption": "scram-sha-256",
                     "shared_buffers": "48MB",
@@ -217,6 +228,12 @@ class Node:
             return command
         command = ["unshare", "-U", "--map-user=1000", "--map-group=1000", "--", *command]
         return ["nsenter", "-t", str(self.holder.pid), "-n", "--", *command] if self.holder else command
+
+    def pgbackrest(self, *words):
+        environment = {"PATH": f"{programs()}:/usr/bin:/bin", "PGPASSFILE": str(self.cluster.folder / "pgpass"),
+                       "LC_ALL": "C.UTF-8"}
+        return run(*self.as_user(["pgbackrest", f"--config={self.backups}", f"--stanza={STANZA}", *words]),
+                   env=environment, cwd="/", timeout=300)
 
     def start(self, program):
         with (self.folder / f"{program}.log").open("ab") as log:
@@ -270,6 +287,7 @@ class Cluster:
 
     def __init__(self, folder, isolated):
         self.folder = pathlib.Path(folder)
+        self.repository = self.folder / "backup"  # of WAL and backups, no part of a server
         self.isolated = isolated
         self.synchronous = True
         self.passwords = {role: secrets.token_hex(16) for role in ROLES}
@@ -296,6 +314,7 @@ class Cluster:
     def start(self, deadline_s=120):
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True, mode=0o700)
+        self.repository.mkdir(mode=0o700)
         if self.isolated:
             run("ip", "link", "set", "lo", "up")
             run("ip", "link", "add", "bridge", "type", "bridge", "forward_delay", "0")
@@ -308,6 +327,7 @@ class Cluster:
         pgpass.chmod(0o600)
         self.supervisor.start()
         self.wait_until_whole(deadline_s)
+        self.primary().pgbackrest("stanza-create")
 
     def _supervise(self):
         while not self.is_stopping.wait(0.5):
@@ -360,18 +380,22 @@ class Cluster:
         return {}
 
     def standbys(self):
-        """Names of the standbys that run, and of those of them that commits wait for."""
-        running = {name: member["role"] for name, member in self.members().items()
-                   if member["role"] != "leader" and member["state"] in ("running", "streaming")}
-        return list(running), [name for name, role in running.items() if role == "sync_standby"]
+        """Names of the standbys that follow the primary, and of those of them that commits wait for."""
+        connection = self.connect("postgres", "postgres")
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT application_name FROM pg_stat_replication WHERE state = 'streaming'")
+            following = {name for name, in cursor.fetchall()}
+        connection.close()
+        roles = {name: member["role"] for name, member in self.members().items() if name in following}
+        return list(roles), [name for name, role in roles.items() if role == "sync_standby"]
 
     def wait_until_whole(self, deadline_s):
         """Waits until both standbys stream and one of them is waited for. Returns the seconds."""
         began = time.monotonic()
         while True:
             try:
-                running, waited_for = self.standbys()
-                if len(running) == 2 and (waited_for or not self.synchronous) and self.primary():
+                following, waited_for = self.standbys()
+                if len(following) == 2 and (waited_for or not self.synchronous):
                     return time.monotonic() - began
             except psycopg2.Error:
                 pass
