@@ -1,5 +1,6 @@
 // Two months compared: what is shown of a segment is the difference, grey where it may be chance.
 import { parseId } from './data.js';
+import { seenBox } from './gliding.js';
 import { state } from './state.js';
 
 const source = { source: 'roads', sourceLayer: 'roughness' };
@@ -37,13 +38,14 @@ export async function compareMonths(map, { site, months }, tell) {
     tell(null);
     return;
   }
-  const bounds = map.getBounds();
+  const { left, top, right, bottom } = seenBox(map);
+  const [northWest, southEast] = [map.unproject([left, top]), map.unproject([right, bottom])];
   const tiles = 2 ** site.compare.zoom;
   const column = (lon) => Math.floor((lon + 180) / 360 * tiles);
   const row = (lat) => Math.floor((1 - Math.asinh(Math.tan(lat * Math.PI / 180)) / Math.PI) / 2 * tiles);
   const asked = [];
-  for (let x = column(bounds.getWest()); x <= column(bounds.getEast()) && asked.length < 64; ++x) {
-    for (let y = row(bounds.getNorth()); y <= row(bounds.getSouth()) && asked.length < 64; ++y) asked.push([x, y]);
+  for (let x = column(northWest.lng); x <= column(southEast.lng) && asked.length < 64; ++x) {
+    for (let y = row(northWest.lat); y <= row(southEast.lat) && asked.length < 64; ++y) asked.push([x, y]);
   }
   const key = `${before} ${after} ${asked.join(' ')}`;
   if (key === shown.get(map)) return;

@@ -3,6 +3,7 @@ import { firstPadding, paddingIn, roomy } from './first_picture.js';
 import { backgroundLayers, paintBackground } from './background.js';
 import { confidenceLimits, isWide, mapFilter } from './filter.js';
 import { el } from './dom.js';
+import { glides, letGlide, seenBox } from './gliding.js';
 import { choose, state } from './state.js';
 import { compareMonths, changeColour, monthColour } from './compare.js';
 import { openSwipe } from './swipe.js';
@@ -122,12 +123,19 @@ export async function openMap(container, data, covered, tell) {
   const [maplibre, { Protocol }] = await Promise.all([import('maplibre-gl'), import('pmtiles')]);
   const { site } = data;
   maplibre.addProtocol('pmtiles', new Protocol().tile);
-  const padding = (most) => paddingIn(container, covered(), most);
+  const place = el('div', { class: 'picture' });
+  container.append(place);
   const [zoom, latitude, longitude] = state.map.split('/').map(Number);
   const map = new maplibre.Map({
-    container, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
-    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: roomy(site.bounds), fitBoundsOptions: { padding: padding(firstPadding) } }),
+    container: place, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
+    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: roomy(site.bounds), fitBoundsOptions: { padding: paddingIn(container, covered(), firstPadding) } }),
   });
+  const padding = (most) => {
+    const seen = seenBox(map);
+    const { left, right, top, bottom } = paddingIn(container, covered(), most);
+    return { left: left + seen.left, right: right + seen.left, top: top + seen.top, bottom: bottom + seen.top };
+  };
+  const isGliding = glides(map);
   withoutSky(map);
   map.touchZoomRotate.disableRotation();
   map.addControl(new maplibre.NavigationControl({ showCompass: false }), 'top-right');
@@ -142,9 +150,15 @@ export async function openMap(container, data, covered, tell) {
     if (map.isMoving()) return;
     map.getCanvas().style.cursor = map.queryRenderedFeatures(event.point, { layers: roadLayers.filter((id) => map.getLayer(id)) }).length > 0 ? 'pointer' : '';
   });
-  map.on('moveend', () => {
+  const placeInAddress = () => {
     const { lng, lat } = map.getCenter();
-    choose({ map: `${map.getZoom().toFixed(2)}/${lat.toFixed(5)}/${lng.toFixed(5)}` });
+    return `${map.getZoom().toFixed(2)}/${lat.toFixed(5)}/${lng.toFixed(5)}`;
+  };
+  let lastPlace = placeInAddress();
+  map.on('moveend', () => { // or resized
+    const before = lastPlace;
+    lastPlace = placeInAddress();
+    if (lastPlace !== before) choose({ map: lastPlace });
   });
   map.on('error', ({ error }) => tell.failed(error));
   let loaded = false;
@@ -156,14 +170,18 @@ export async function openMap(container, data, covered, tell) {
     told = setTimeout(tell.idle, 30); // after the picture is on the screen
     if (state.mode === 'change') compare();
   });
+  if (isGliding) map.once('idle', () => letGlide(map)); // the first picture needs no margin
   map.on('dataloading', () => { delete container.dataset.ready; });
 
   const compare = () => compareMonths(map, data, tell.compared);
   let swipe = null;
   // The later month on a map of its own, which follows this one.
-  function openAfter(place) {
-    const after = new maplibre.Map({ container: place, style: styleOf(site), attributionControl: false, interactive: false, maxPitch: 0, fadeDuration: 0, center: map.getCenter(), zoom: map.getZoom() });
+  function openAfter(side) {
+    const later = el('div', { class: 'picture' });
+    side.append(later);
+    const after = new maplibre.Map({ container: later, style: styleOf(site), attributionControl: false, interactive: false, maxPitch: 0, fadeDuration: 0, center: map.getCenter(), zoom: map.getZoom() });
     withoutSky(after);
+    if (isGliding) letGlide(after, map);
     const follow = () => after.jumpTo({ center: map.getCenter(), zoom: map.getZoom() });
     const compareToo = () => compareMonths(after, data, () => {});
     map.on('move', follow);
@@ -209,8 +227,9 @@ export async function openMap(container, data, covered, tell) {
     // Whether a place is in view, and not below the drawer.
     sees(at) {
       const { x, y } = map.project(at);
+      const seen = seenBox(map);
       const { right, bottom } = covered();
-      return x > 0 && y > 0 && x < container.clientWidth - right && y < container.clientHeight - bottom;
+      return x > seen.left && y > seen.top && x < seen.right - right && y < seen.bottom - bottom;
     },
     // All segments of the tiles in view, also those that a filter hides.
     segments: () => (loaded && map.getZoom() >= segmentsFrom ? map.querySourceFeatures('roads', { sourceLayer: layer }) : []),
@@ -230,7 +249,8 @@ export async function openMap(container, data, covered, tell) {
     inView() {
       const found = new Map();
       if (!loaded) return [];
-      for (const feature of map.queryRenderedFeatures({ layers: roadLayers })) {
+      const { left, top, right, bottom } = seenBox(map);
+      for (const feature of map.queryRenderedFeatures([[left, top], [right, bottom]], { layers: roadLayers })) {
         const { properties } = feature;
         const { segment, name, highway, iri, iri_worst: worst, length_m: metres } = properties;
         found.set(segment ?? `${name} ${highway} ${iri} ${worst} ${metres}`, properties);

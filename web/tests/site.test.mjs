@@ -174,6 +174,77 @@ describe('the page', { timeout: 1000_000 }, () => {
     await close();
   });
 
+  // A page that counts what its map draws, by a renderer of that name.
+  async function countingPage(hash, renderer) {
+    const opened = await town.page(hash, { reducedMotion: 'reduce', before: (page) => page.addInitScript((name) => { // so that it does not roll on
+      const { drawElements, getParameter } = WebGL2RenderingContext.prototype;
+      globalThis.draws = 0;
+      WebGL2RenderingContext.prototype.drawElements = function count(...what) { globalThis.draws += 1; drawElements.apply(this, what); };
+      WebGL2RenderingContext.prototype.getParameter = function named(what) { return what === 0x9246 ? name : getParameter.call(this, what); }; // UNMASKED_RENDERER_WEBGL
+    }, renderer) });
+    const { page } = opened;
+    const picture = () => page.evaluate(() => {
+      const { e, f, a } = new DOMMatrix(document.querySelector('#map canvas').style.transform);
+      return { x: e, y: f, scale: a, draws: globalThis.draws };
+    });
+    // Waits until the picture lies so far from where it was drawn.
+    const moved = (x, y) => page.waitForFunction(([dx, dy]) => {
+      const { e, f } = new DOMMatrix(document.querySelector('#map canvas').style.transform);
+      return Math.abs(e - dx) < 0.1 && Math.abs(f - dy) < 0.1;
+    }, [x, y]);
+    return { ...opened, picture, moved };
+  }
+  const software = 'ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero) (0x0000C0DE)), SwiftShader driver)';
+
+  test('moves its picture without drawing it while a map that software draws is dragged, and draws it at rest', async () => {
+    const { detail } = lonely();
+    const { page, picture, moved, drawn, text, close } = await countingPage(`#${at(detail)}`, software);
+    await page.waitForSelector('#map .glides');
+    await drawn();
+    const seen = await page.locator('#map').boundingBox();
+    const zoomIn = await page.getByRole('button', { name: 'Zoom in' }).boundingBox();
+    assert.ok(zoomIn.x + zoomIn.width <= seen.x + seen.width && zoomIn.y >= seen.y, 'the controls are in what is seen');
+    const [x, y] = [seen.x + seen.width / 2, seen.y + seen.height / 2];
+    assert.doesNotMatch(page.url(), /map=18\.00/, 'it has not moved');
+    const before = await picture();
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 60, y + 20);
+    await moved(60, 20);
+    await page.mouse.move(x + 100, y + 40);
+    await moved(100, 40);
+    assert.equal((await picture()).draws, before.draws, 'nothing is drawn');
+    await page.mouse.move(x + seen.width * 0.4, y + 40);
+    await page.waitForFunction((draws) => globalThis.draws > draws, before.draws); // a border would be blank
+    await page.mouse.move(x + 100, y + 40);
+    const again = await picture();
+    await page.mouse.up();
+    await page.waitForFunction((draws) => globalThis.draws > draws && document.querySelector('#map canvas').style.transform === '', again.draws);
+    await drawn();
+    const [[lon1, lat1], [lon2, lat2]] = [detail.line[0], detail.line.at(-1)];
+    const course = Math.atan2((lon2 - lon1) * Math.cos(lat1 * Math.PI / 180), lat2 - lat1);
+    const side = 8.2; // pixels to the right in driving direction at zoom 18
+    await page.mouse.click(x + 100 + side * Math.cos(course), y + 40 + side * Math.sin(course));
+    await page.waitForSelector('.drawer dl');
+    assert.equal(await text('.drawer code'), detail.segment);
+    await close();
+  });
+
+  test('moves no picture where a graphics card draws', async () => {
+    const { page, picture, close } = await countingPage(`#${at(lonely().detail)}`, 'ANGLE (Intel, Mesa Intel(R) UHD Graphics 620 (KBL GT2), OpenGL 4.6)');
+    const { x, y, width, height } = await page.locator('#map').boundingBox();
+    const before = await picture();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 100, y + height / 2);
+    await page.waitForFunction((draws) => globalThis.draws > draws, before.draws);
+    const { draws, ...place } = await picture();
+    assert.deepEqual(place, { x: 0, y: 0, scale: 1 });
+    assert.equal(await page.locator('.glides').count(), 0);
+    await page.mouse.up();
+    await close();
+  });
+
   test('has the legend in sight on a phone, and raises the sheet for the keyboard', async () => {
     const { page, breaches, close } = await town.page('', { width: 320, height: 640 });
     const sees = (selector) => page.evaluate((name) => {
