@@ -39,17 +39,14 @@ class Nemesis:
 
     def run(self, fault, *arguments):
         self.say(f"{fault.__name__.replace('_', ' ')}")
-        began = time.monotonic()
+        self.began = time.monotonic()
         fault(*arguments)
-        self.done.append((fault.__name__, began, time.monotonic()))
+        self.done.append((fault.__name__, self.began, time.monotonic()))
 
     def primary(self):
-        for _ in range(120):
-            node = self.cluster.primary()
-            if node:
-                return node
-            time.sleep(0.5)
-        raise RuntimeError(f"no primary for a minute:\n{self.cluster.list()}")
+        node = self.cluster.awaited_primary()
+        self.began = time.monotonic()  # until now the fault before went on
+        return node
 
     def standby(self, synchronous):
         for _ in range(120):

@@ -327,7 +327,7 @@ class Cluster:
         pgpass.chmod(0o600)
         self.supervisor.start()
         self.wait_until_whole(deadline_s)
-        self.primary().pgbackrest("stanza-create")
+        self.awaited_primary().pgbackrest("stanza-create")
 
     def _supervise(self):
         while not self.is_stopping.wait(0.5):
@@ -368,6 +368,14 @@ class Cluster:
             finally:
                 connection.close()
         return None
+
+    def awaited_primary(self):
+        for _ in range(120):
+            node = self.primary()
+            if node:
+                return node
+            time.sleep(0.5)
+        raise RuntimeError(f"no primary for a minute:\n{self.list()}")
 
     def members(self):
         """Members by name, as Patroni sees them: {role, state, timeline, lag, ...}; empty if it does not answer."""
