@@ -7,11 +7,11 @@ import assert from 'node:assert/strict';
 import { cpSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { Agent, get } from 'node:http';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { openSite } from '../src/data.js';
 import { served } from './served.mjs';
-import { macadam, simulated } from './simulated.mjs';
+import { databaseIn, macadam } from './simulated.mjs';
 
 let api, server, folder, url, database;
 const problem = { type: 'object', required: ['title', 'status', 'detail'], properties: { title: { type: 'string' }, status: { type: 'integer' }, detail: { type: 'string' } } };
@@ -27,7 +27,7 @@ const ask = (target) => new Promise((resolve, reject) => {
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'macadam-api-'));
-  database = process.env.MACADAM_WEB_DATABASE ?? simulated(folder);
+  database = databaseIn(folder);
   server = await served(database);
   url = server.url;
   api = JSON.parse((await ask('/api')).body);
@@ -115,7 +115,7 @@ describe('the data of a page that was opened before a change', { timeout: 300_00
       await live.waitFor('/site.json');
       const { site, segment } = await openSite();
       const { digest, segments: { index } } = site;
-      macadam('forget', copy, '--trip', readdirSync(join(folder, 'fleet/trips'))[0]);
+      macadam('forget', copy, '--trip', readdirSync(join(dirname(process.env.MACADAM_WEB_DATABASE ?? database), 'fleet/trips'))[0]);
       while ((await (await fetch('/site.json')).json()).digest === digest) await new Promise((resolve) => { setTimeout(resolve, 200); });
       assert.equal((await fetch(`/${index}`)).status, 410);
       assert.equal((await fetch('/assets/maplibre-gl-worker.mjs?v=6.17.0')).status, 200); // as the library asks for it

@@ -5,7 +5,7 @@ import { createRequire } from 'node:module';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { macadam, simulated } from './simulated.mjs';
+import { databaseIn, macadam } from './simulated.mjs';
 import { serve } from './static_server.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -14,7 +14,7 @@ export { macadam };
 
 export async function world() {
   const folder = mkdtempSync(join(tmpdir(), 'macadam-web-'));
-  const database = process.env.MACADAM_WEB_DATABASE ?? simulated(folder); // to look at one of one's own
+  const database = databaseIn(folder);
   macadam('export', database, '-o', `${folder}/site`, '--format', 'site', '--title', 'Krems <b>&amp;');
   const server = await serve(join(folder, 'site'));
   const options = { executablePath: '/usr/bin/chromium', timeout: 60_000 };

@@ -7,14 +7,14 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { macadam, simulated } from './simulated.mjs';
+import { databaseIn, macadam } from './simulated.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 let folder, browser;
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'macadam-report-'));
-  macadam('report', process.env.MACADAM_WEB_DATABASE ?? simulated(folder), '-o', `${folder}/report.html`, '--language', 'de');
+  macadam('report', databaseIn(folder), '-o', `${folder}/report.html`, '--language', 'de');
   browser = await chromium.launch({ executablePath: '/usr/bin/chromium', timeout: 60_000,
     args: ['--no-sandbox', '--disable-gpu-sandbox', '--host-resolver-rules=MAP * ~NOTFOUND'] });
 });
