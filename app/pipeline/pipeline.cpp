@@ -8,6 +8,7 @@
 #include "estimator/events/event_detection.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "mapping/passes/trip_cutting.hpp"
 
 #include <fmt/format.h>
@@ -294,7 +295,13 @@ TripTrace trace_of(const TripLog& trip,
                 add(spectra, stretch_of(span));
             }
         }
-        auto of_trip = car_of_trip(spectra, stretch_of(longest), vehicle, estimator, progress.stop);
+        const double rate_hz = static_cast<double>(longest.last - longest.first) /
+                               (trip.acc.t_s[longest.last] - trip.acc.t_s[longest.first]);
+        auto of_trip = car_of_trip(spectra,
+                                   stretch_of(longest),
+                                   with_usual_lowpass(vehicle, rate_hz),
+                                   estimator,
+                                   progress.stop);
         car = std::move(of_trip.car);
         estimator = of_trip.config;
     }

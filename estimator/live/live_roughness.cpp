@@ -1,6 +1,7 @@
 #include "estimator/live/live_roughness.hpp"
 
 #include "estimator/motion/mounting.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +173,8 @@ void LiveRoughness::tune(const TripLog& recent,
     if (uses_vertical(estimator_)) {
         add(spectra, stretch);
     }
-    car_ = car_of_trip(spectra, stretch, vehicle_, estimator_);
+    const double rate_hz = static_cast<double>(span.last - span.first) / length_s;
+    car_ = car_of_trip(spectra, stretch, with_usual_lowpass(vehicle_, rate_hz), estimator_);
     tuned_by_s_ = length_s >= tuned_every_s ? length_s : 0;
 }
 

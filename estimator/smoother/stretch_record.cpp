@@ -3,6 +3,7 @@
 #include "estimator/smoother/adaptation/box_smoothing.hpp"
 #include "estimator/smoother/response_inverse.hpp"
 #include "estimator/smoother/wheel_order.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -173,7 +174,7 @@ DriveRecord drive_of(const Stretch& stretch,
     if (sensors.pitch) {
         pitch = doubles(stretch.pitch_radps, 1);
     }
-    if (vehicle.imu.lowpass_hz > 0) {
+    if (vehicle.imu.lowpass_hz > 0 && vehicle.imu.lowpass_hz < no_lowpass_hz) {
         for (auto& felt : drive.felt) {
             felt = inverse_lowpass(
                 felt, stretch.step_s, vehicle.imu.lowpass_hz, vehicle.imu.lowpass_order);

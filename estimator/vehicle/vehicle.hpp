@@ -55,7 +55,7 @@ struct ImuMount {
     double x_m = 0;                      ///< ahead
     double y_m = 0;                      ///< to the left
     double height_above_roll_axis_m = 0; ///< 0: not known
-    double lowpass_hz = 0;               ///< 0: none
+    double lowpass_hz = 0;               ///< 0: not known; no_lowpass_hz: none
     int lowpass_order = 2;
     double noise_mps2 = 0.05;
     double noise_radps = 0.002;

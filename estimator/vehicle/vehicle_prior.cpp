@@ -12,6 +12,7 @@ namespace macadam {
 namespace {
 
 constexpr int wheels = 4;
+constexpr double usual_lowpass_over_rate = 0.4;
 
 // Frequencies of the body: 1.0 to 1.5 Hz in passenger cars (T. D. Gillespie, "Fundamentals of
 // Vehicle Dynamics", SAE 1992, chapter 5); soft in saloons, harder where a load is to be carried.
@@ -192,6 +193,13 @@ Vehicle vehicle_of(const OwnersData& known, std::string name) {
                         {"cg_to_front_m", share_sd / (1 - front_share)},
                         {"dynamic_index", unstated_dynamic_index_sd},
                         {"rear_ratio", rear_ratio_sd}}};
+}
+
+Vehicle with_usual_lowpass(Vehicle vehicle, double rate_hz) {
+    if (vehicle.imu.lowpass_hz == 0) {
+        vehicle.imu.lowpass_hz = usual_lowpass_over_rate * rate_hz;
+    }
+    return vehicle;
 }
 
 } // namespace macadam

@@ -2,6 +2,7 @@
 
 #include "estimator/vehicle/vehicle.hpp"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,5 +65,13 @@ struct OwnersData {
 ///
 /// \param known  within the ranges of its body.
 Vehicle vehicle_of(const OwnersData& known, std::string name);
+
+/// ImuMount::lowpass_hz of a sensor that is stated to have none.
+inline constexpr double no_lowpass_hz = std::numeric_limits<double>::infinity();
+
+/// Returns the vehicle with the low-pass that sensors have at this rate of readings, unless one is
+/// stated: half power at 0.4 of the rate, so that nothing aliases (Bosch BMI160, data sheet
+/// BST-BMI160-DS000, section 2.4.1: 20.25 Hz at 50 Hz in normal mode).
+Vehicle with_usual_lowpass(Vehicle vehicle, double rate_hz);
 
 } // namespace macadam

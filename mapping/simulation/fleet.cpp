@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/simulation/random.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "mapping/simulation/driven_path.hpp"
 #include "mapping/simulation/gnss_receiver.hpp"
 #include "mapping/simulation/road_under_path.hpp"
@@ -51,7 +52,7 @@ Vehicle true_vehicle(const CarRecipe& car, const ImuRecipe& imu) {
     vehicle.half_car.friction_n = car.friction_n;
     vehicle.gain = 1;
     vehicle.one_axle_gain = one_axle_gain;
-    vehicle.imu.lowpass_hz = imu.lowpass_hz;
+    vehicle.imu.lowpass_hz = imu.lowpass_hz > 0 ? imu.lowpass_hz : no_lowpass_hz;
     vehicle.imu.lowpass_order = imu.lowpass_order;
     vehicle.imu.noise_mps2 = imu.noise_mps2;
     vehicle.imu.noise_radps = imu.noise_radps;

@@ -1,5 +1,6 @@
 #include "storage/settings/vehicle_file.hpp"
 
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "storage/tables/toml.hpp"
 
 #include <algorithm>
@@ -114,6 +115,9 @@ Vehicle with_axles(Vehicle vehicle, const TomlTable& axles) {
 
 Vehicle with_imu(Vehicle vehicle, const TomlTable& imu) {
     vehicle = with_table(std::move(vehicle), imu, "imu");
+    if (imu.has("lowpass_hz") && vehicle.imu.lowpass_hz == 0) {
+        vehicle.imu.lowpass_hz = no_lowpass_hz;
+    }
     if (imu.has(order_key)) {
         vehicle.imu.lowpass_order = static_cast<int>(imu.number(order_key, order));
     }

@@ -1,5 +1,7 @@
 #include "storage/settings/vehicle_writer.hpp"
 
+#include "estimator/vehicle/vehicle_prior.hpp"
+
 #include <fmt/format.h>
 
 #include <string_view>
@@ -38,10 +40,16 @@ std::string axles_text(const Axles& axles) {
            line("rear_ratio", axles.rear_ratio);
 }
 
+/// Nothing of a low-pass that is not known.
+std::string lowpass_text(double lowpass_hz) {
+    const double stated_hz = lowpass_hz == no_lowpass_hz ? 0 : lowpass_hz;
+    return lowpass_hz > 0 ? line("lowpass_hz", stated_hz) : "";
+}
+
 std::string imu_text(const ImuMount& imu) {
     return "\n[imu]\n" + line("x_m", imu.x_m) + line("y_m", imu.y_m) +
            line("height_above_roll_axis_m", imu.height_above_roll_axis_m) +
-           line("lowpass_hz", imu.lowpass_hz) + line("lowpass_order", imu.lowpass_order) +
+           lowpass_text(imu.lowpass_hz) + line("lowpass_order", imu.lowpass_order) +
            line("noise_mps2", imu.noise_mps2) + line("noise_radps", imu.noise_radps);
 }
 

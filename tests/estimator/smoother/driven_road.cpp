@@ -4,6 +4,7 @@
 #include "estimator/iri/iri.hpp"
 #include "estimator/roughness/roughness_mean.hpp"
 #include "estimator/smoother/friction.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -153,13 +154,14 @@ CarRecipe linear_car_of(const Vehicle& vehicle) {
 }
 
 Vehicle two_axle_car(const Axles& axles, double imu_ahead_m) {
-    return {.name = "two-axle-car",
-            .gain = 1,
-            .one_axle_gain = {},
-            .half_car = built_in_vehicle("generic")->half_car,
-            .axles = axles,
-            .imu = {.x_m = imu_ahead_m, .height_above_roll_axis_m = 0.3},
-            .uncertainty = {}};
+    return {
+        .name = "two-axle-car",
+        .gain = 1,
+        .one_axle_gain = {},
+        .half_car = built_in_vehicle("generic")->half_car,
+        .axles = axles,
+        .imu = {.x_m = imu_ahead_m, .height_above_roll_axis_m = 0.3, .lowpass_hz = no_lowpass_hz},
+        .uncertainty = {}};
 }
 
 DrivenRoad driven_road(const DriveRecipe& recipe) {

@@ -133,5 +133,16 @@ TEST(TyreSizes, TellTheStiffness) {
     EXPECT_LT(stiffness_of("255/45R20"), 320e3);
 }
 
+TEST(UsualLowpass, IsAssumedAtTwoFifthsOfTheRateOnlyWhereNoneIsStated) {
+    auto vehicle = vehicle_of(compact(), "golf");
+    ASSERT_EQ(vehicle.imu.lowpass_hz, 0);
+    EXPECT_DOUBLE_EQ(with_usual_lowpass(vehicle, 50).imu.lowpass_hz, 20);
+    EXPECT_DOUBLE_EQ(with_usual_lowpass(vehicle, 100).imu.lowpass_hz, 40);
+    vehicle.imu.lowpass_hz = 12;
+    EXPECT_EQ(with_usual_lowpass(vehicle, 50).imu.lowpass_hz, 12);
+    vehicle.imu.lowpass_hz = no_lowpass_hz;
+    EXPECT_EQ(with_usual_lowpass(vehicle, 50).imu.lowpass_hz, no_lowpass_hz);
+}
+
 } // namespace
 } // namespace macadam::testing

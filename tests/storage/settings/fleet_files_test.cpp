@@ -1,6 +1,7 @@
 // What a simulated fleet is written as, and read back from.
 
 #include "estimator/common/error.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "storage/networks/network_reader.hpp"
 #include "storage/networks/osm_writer.hpp"
 #include "storage/settings/vehicle_file.hpp"
@@ -136,6 +137,15 @@ TEST(VehicleWriter, IsReadBackAsTheSameCar) {
     EXPECT_EQ(read.imu.y_m, -0.2);
     EXPECT_EQ(read.imu.lowpass_hz, 40);
     EXPECT_EQ(read.uncertainty, car.uncertainty);
+}
+
+TEST(VehicleWriter, KeepsThatASensorHasNoLowPassAndThatItsLowPassIsNotKnown) {
+    auto car = *built_in_vehicle("suv");
+    for (const double lowpass_hz : {0.0, no_lowpass_hz}) {
+        car.imu.lowpass_hz = lowpass_hz;
+        const auto read = read_vehicle(written(test_folder(), "suv.toml", vehicle_text(car)));
+        EXPECT_EQ(read.imu.lowpass_hz, lowpass_hz);
+    }
 }
 
 TEST(TruthFile, IsReadBackInTheOrderOfItsKeys) {

@@ -1,3 +1,4 @@
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "storage/settings/vehicle_file.hpp"
 
 #include "support/files/files.hpp"
@@ -41,6 +42,11 @@ TEST(VehicleFile, NeedsANameAndAHalfCar) {
     EXPECT_FALSE(car.half_car.friction_n);
     EXPECT_FALSE(car.axles);
     EXPECT_TRUE(car.uncertainty.empty());
+}
+
+TEST(VehicleFile, TellsASensorWithoutLowPassFromOneWhoseLowPassIsNotKnown) {
+    EXPECT_EQ(read_text(least + "[imu]\nlowpass_hz = 0\n").imu.lowpass_hz, no_lowpass_hz);
+    EXPECT_EQ(read_text(least + "[imu]\nx_m = 0\n").imu.lowpass_hz, 0);
 }
 
 TEST(VehicleFile, ReadsWhatElseIsKnownOfACar) {
