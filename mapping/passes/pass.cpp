@@ -185,7 +185,7 @@ std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
                                       const IriTrace& roughness,
                                       const Vehicle& vehicle,
                                       const PassConfig& config) {
-    const auto tracks = track_difference_of(roughness);
+    const auto tracks = track_difference_of(roughness, vehicle);
     std::vector<DrivenPass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
     for (auto& traversal : traversals_of(parts)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace macadam {
@@ -17,8 +18,12 @@ constexpr std::size_t min_windows = 50; // a kilometre
 // m, 0.55 in one simulated world and 0.94 in another (docs/method/accuracy.md).
 constexpr double road_part = 0.6;
 
+// Part of the distance from the usual ratio at which a trip's tracks, drawn from the posterior,
+// show theirs: they do so to 0.018 (docs/method/accuracy.md).
+constexpr double trip_part = 2.0 / 3;
+
 // Scatter of true ratios about those found so, over 20 m: 0.037 and 0.041 in these worlds, and of
-// the mean over a trip about the usual ratio.
+// the mean over a trip.
 constexpr double sd_of_found_ratio = 0.045;
 
 constexpr double max_excess = 2.5; // of r² over its usual value; more is a bend, not the road
@@ -73,6 +78,48 @@ std::optional<DifferenceRun> difference_of(const IriRun& run) {
     return difference;
 }
 
+/// Returns the sum of the golden car's strokes over the cells from the first one on.
+double stroke_sum(const std::vector<double>& elevation_m, double step_m, std::size_t first) {
+    const auto strokes = rectified_stroke_mm_per_m(elevation_m, step_m, false);
+    return std::accumulate(strokes.begin() +
+                               static_cast<std::ptrdiff_t>(std::min(first, strokes.size())),
+                           strokes.end(),
+                           0.0);
+}
+
+/// Returns HRI/MRI of the whole trip over tracks drawn from the posterior, two of each run: the
+/// most probable ones lack what was not observed of their difference. The trip has tracks.
+double drawn_ratio(const IriTrace& trace) {
+    double hri = 0;
+    double mri = 0;
+    for (const auto& run : trace.runs) {
+        const auto& profile = run.profile;
+        const auto first = static_cast<std::size_t>(run.lead_in_m / run.cell_m);
+        if (profile.left_m.size() != profile.right_m.size() ||
+            profile.left_error_m.size() != profile.left_m.size() ||
+            profile.right_error_m.size() != profile.left_m.size()) {
+            continue;
+        }
+        for (const double sign : {+1.0, -1.0}) {
+            std::vector<double> left_m(profile.left_m.size());
+            std::vector<double> right_m(profile.left_m.size());
+            std::vector<double> centre_m(profile.left_m.size());
+            for (std::size_t i = 0; i < left_m.size(); ++i) {
+                left_m[i] = static_cast<double>(profile.left_m[i]) +
+                            sign * static_cast<double>(profile.left_error_m[i]);
+                right_m[i] = static_cast<double>(profile.right_m[i]) +
+                             sign * static_cast<double>(profile.right_error_m[i]);
+                centre_m[i] = (left_m[i] + right_m[i]) / 2;
+            }
+            hri += stroke_sum(centre_m, profile.step_m, first);
+            mri += (stroke_sum(left_m, profile.step_m, first) +
+                    stroke_sum(right_m, profile.step_m, first)) /
+                   2;
+        }
+    }
+    return mri > 0 ? hri / mri : hri_over_mri;
+}
+
 /// half² as a function of HRI².
 struct Level {
     double gain = 0;
@@ -81,10 +128,10 @@ struct Level {
     double at(double hri2) const { return gain * hri2 + noise_mm2; }
 };
 
-/// HRI/MRI where half² exceeds its level by this factor.
-double ratio_at(double excess) {
-    const double usual_r2 = 1 / (hri_over_mri * hri_over_mri) - 1;
-    return 1 / std::sqrt(1 + usual_r2 * (1 + road_part * (excess - 1)));
+/// HRI/MRI where half² exceeds its level by this factor, in a trip of this mean ratio.
+double ratio_at(double excess, double trip_ratio) {
+    const double r2 = 1 / (trip_ratio * trip_ratio) - 1;
+    return 1 / std::sqrt(1 + r2 * (1 + road_part * (excess - 1)));
 }
 
 /// Squares over one window.
@@ -136,9 +183,9 @@ double excess_of(const Level& level, const Squares& window) {
 }
 
 /// Fits the level with Student's t for relative deviations: bends and single defects do not count.
-/// Then scales it so that the mean MRI of the windows is that of the usual ratio: what the fit
+/// Then scales it so that the mean MRI of the windows is that of the trip's ratio: what the fit
 /// takes for outliers lies above it, which would raise a whole trip.
-Level level_of(const std::vector<Squares>& windows) {
+Level level_of(const std::vector<Squares>& windows, double trip_ratio) {
     Level level{median_ratio(windows), 0};
     for (int round = 0; round < rounds && level.gain > 0; ++round) {
         level = refitted(windows, level);
@@ -148,8 +195,8 @@ Level level_of(const std::vector<Squares>& windows) {
         double found = 0;
         for (const auto& window : windows) {
             const double hri = std::sqrt(window.hri2);
-            usual += hri / hri_over_mri;
-            found += hri / ratio_at(excess_of(level, window));
+            usual += hri / trip_ratio;
+            found += hri / ratio_at(excess_of(level, window), trip_ratio);
         }
         const double factor = std::pow(found / usual, 1 / elasticity);
         level = {level.gain * factor, level.noise_mm2 * factor};
@@ -159,7 +206,7 @@ Level level_of(const std::vector<Squares>& windows) {
 
 } // namespace
 
-std::optional<TrackDifference> track_difference_of(const IriTrace& trace) {
+std::optional<TrackDifference> track_difference_of(const IriTrace& trace, const Vehicle& vehicle) {
     TrackDifference found{.runs = {}};
     std::vector<Squares> windows;
     for (const auto& run : trace.runs) {
@@ -185,7 +232,10 @@ std::optional<TrackDifference> track_difference_of(const IriTrace& trace) {
     if (windows.size() < min_windows) {
         return std::nullopt;
     }
-    const auto level = level_of(windows);
+    if (vehicle.axles) {
+        found.trip_ratio = std::lerp(hri_over_mri, drawn_ratio(trace), trip_part);
+    }
+    const auto level = level_of(windows, found.trip_ratio);
     found.gain = level.gain;
     found.noise_mm2 = level.noise_mm2;
     return found.gain > 0 ? std::optional{std::move(found)} : std::nullopt;
@@ -207,7 +257,7 @@ HriRatio ratio_over(const std::optional<TrackDifference>& difference, double fro
     const double hri2 = std::pow(sum.centre / sum.covered_m, 2);
     const double half2 = std::pow(sum.half / sum.covered_m, 2);
     const Level level{difference->gain, difference->noise_mm2};
-    return {ratio_at(excess_of(level, {hri2, half2})), sd_of_found_ratio};
+    return {ratio_at(excess_of(level, {hri2, half2}), difference->trip_ratio), sd_of_found_ratio};
 }
 
 std::optional<Headline> headline_of(const IriMean& mean, const HriRatio& ratio) {

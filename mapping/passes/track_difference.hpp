@@ -27,16 +27,18 @@ struct DifferenceRun {
 /// has beyond HRI: HRI/MRI = 1/sqrt(1 + r²) if both are Gaussian (docs/method/estimation.md).
 ///
 /// The level of the difference is not used: cars lean on bushes and bars that no file states. It is
-/// scaled to the usual ratio over the trip, and what does not grow with HRI is noise.
+/// scaled to the trip's ratio, and what does not grow with HRI is noise.
 struct TrackDifference {
     std::vector<DifferenceRun> runs;
-    double gain = 0;      ///< half² per HRI² over the trip
-    double noise_mm2 = 0; ///< half² where HRI is 0, (mm/m)²
+    double trip_ratio = hri_over_mri; ///< of the trip's mean HRI to its mean MRI
+    double gain = 0;                  ///< half² per HRI² over the trip
+    double noise_mm2 = 0;             ///< half² where HRI is 0, (mm/m)²
 };
 
 /// Returns the difference of the tracks over the trip; `std::nullopt` if it was not observed over
-/// at least a kilometre.
-std::optional<TrackDifference> track_difference_of(const IriTrace& trace);
+/// at least a kilometre. The trip's ratio is the usual one unless the axles of the vehicle are
+/// stated: what else leans and turns is not known either.
+std::optional<TrackDifference> track_difference_of(const IriTrace& trace, const Vehicle& vehicle);
 
 /// Returns the ratio over travel [from_m, to_m], widened to at least 20 m: the usual one where the
 /// difference is unknown.

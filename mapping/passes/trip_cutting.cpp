@@ -119,7 +119,7 @@ std::vector<RoughnessTrace> extract_traces(std::vector<SegmentOverlap> parts,
                                            const IriTrace& roughness,
                                            const RoadNetwork& roads,
                                            const Vehicle& vehicle) {
-    const auto tracks = track_difference_of(roughness);
+    const auto tracks = track_difference_of(roughness, vehicle);
     std::vector<RoughnessTrace> traces;
     std::erase_if(parts, [](const SegmentOverlap& part) { return !part.drive; });
     for (auto first = parts.begin(); first != parts.end();) {

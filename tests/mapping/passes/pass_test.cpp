@@ -219,6 +219,8 @@ IriTrace over_two_tracks(double length_m, double leaning, double from_m, double 
         run.profile.left_m.push_back(mean + half);
         run.profile.right_m.push_back(mean - half);
         run.profile.centre_m.push_back(mean);
+        run.profile.left_error_m.push_back(0);
+        run.profile.right_error_m.push_back(0);
         run.centre_mm_per_m.push_back(2);
         run.speed_mps.push_back(15);
     }
@@ -226,7 +228,7 @@ IriTrace over_two_tracks(double length_m, double leaning, double from_m, double 
 }
 
 TEST(HriRatio, FallsWhereTheTracksDifferMoreThanElsewhereOnTheTrip) {
-    const auto tracks = track_difference_of(over_two_tracks(8000, 0.5, 7500, 1.3));
+    const auto tracks = track_difference_of(over_two_tracks(8000, 0.5, 7500, 1.3), car());
     ASSERT_TRUE(tracks);
     EXPECT_NEAR(ratio_over(tracks, 100, 7400).hri_over_mri, 0.91, 0.01);
     // r^2 of 1.69 times the usual, of which 0.6 is believed: 1/sqrt(1 + 0.2076 * 1.414) = 0.879
@@ -235,8 +237,8 @@ TEST(HriRatio, FallsWhereTheTracksDifferMoreThanElsewhereOnTheTrip) {
 }
 
 TEST(HriRatio, DoesNotDependOnHowMuchACarLeans) {
-    const auto tracks = track_difference_of(over_two_tracks(4000, 0.5, 2000, 1.2));
-    const auto leaning = track_difference_of(over_two_tracks(4000, 0.7, 2000, 1.2));
+    const auto tracks = track_difference_of(over_two_tracks(4000, 0.5, 2000, 1.2), car());
+    const auto leaning = track_difference_of(over_two_tracks(4000, 0.7, 2000, 1.2), car());
     ASSERT_TRUE(tracks && leaning);
     for (const double from_m : {100.0, 1000.0, 3000.0}) {
         EXPECT_NEAR(ratio_over(tracks, from_m, from_m + 20).hri_over_mri,
@@ -245,11 +247,23 @@ TEST(HriRatio, DoesNotDependOnHowMuchACarLeans) {
     }
 }
 
+/// 1/sqrt(1 + 0.7^2) = 0.819, of whose distance from 0.91 two thirds are believed.
+TEST(HriRatio, FollowsTheTripsOwnTracksUnderStatedAxles) {
+    auto with_axles = car();
+    with_axles.axles = Axles{.wheelbase_m = 2.7, .cg_to_front_m = 1.3};
+    const auto trace = over_two_tracks(6000, 0.7, 6000, 1);
+    const auto tracks = track_difference_of(trace, with_axles);
+    ASSERT_TRUE(tracks);
+    EXPECT_NEAR(tracks->trip_ratio, 0.849, 0.01);
+    EXPECT_NEAR(ratio_over(tracks, 100, 5900).hri_over_mri, 0.849, 0.01);
+    EXPECT_EQ(track_difference_of(trace, car())->trip_ratio, hri_over_mri);
+}
+
 TEST(HriRatio, IsTheUsualOneWhereTheDifferenceIsUnknown) {
-    EXPECT_FALSE(track_difference_of(even_trace(5000, 2)));
-    EXPECT_FALSE(track_difference_of(over_two_tracks(900, 0.5, 900, 1)));
+    EXPECT_FALSE(track_difference_of(even_trace(5000, 2), car()));
+    EXPECT_FALSE(track_difference_of(over_two_tracks(900, 0.5, 900, 1), car()));
     EXPECT_EQ(ratio_over(std::nullopt, 0, 20).hri_over_mri, hri_over_mri);
-    const auto tracks = track_difference_of(over_two_tracks(2000, 0.5, 2000, 1));
+    const auto tracks = track_difference_of(over_two_tracks(2000, 0.5, 2000, 1), car());
     EXPECT_EQ(ratio_over(tracks, 3000, 3020).hri_over_mri, hri_over_mri);
     EXPECT_EQ(ratio_over(tracks, 3000, 3020).sd, sd_hri_over_mri);
 }
