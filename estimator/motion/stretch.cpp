@@ -15,7 +15,9 @@ namespace macadam {
 namespace {
 
 constexpr int alias_order = 8;
-constexpr double alias_corner = 0.4; // of the new rate: half power there, 1e-3 at half the rate
+constexpr double alias_corner =
+    0.46;                            // of the new rate: a quarter of the power there; what is above
+                                     // 0.54 of it, and would fold onto lower ones, falls to 1e-2
 constexpr double same_rate = 1.05;   // a log this much faster than the grid needs no filter
 constexpr double settle_periods = 4; // of the filter's corner, at both ends
 constexpr double minor_share = 0.2;  // of an axis that need not be sampled: sin(11.5 degrees)

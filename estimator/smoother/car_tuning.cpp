@@ -167,15 +167,44 @@ Slope slope_at(const RoadEstimate& here,
     return slope;
 }
 
-/// Friction from the likelihood at even steps, with a parabola through the maximum, and from what
-/// is usual.
 struct Friction {
     double force_n;
     double sd_n;
     double iri_per_n; ///< relative
 };
 
-Friction friction_of(const DriveRecord& drive, Point point, const TuningConfig& config) {
+/// Joins what was found with what is usual.
+Friction joined(double found_n, double found_sd_n, double iri_per_n, const HalfCar& car) {
+    const auto usual = usual_friction_n(car);
+    const double trust_in_found = 1 / (1 + std::pow(found_sd_n / usual.sd, 2));
+    return {.force_n = std::max(0.0, std::lerp(usual.mean, found_n, trust_in_found)),
+            .sd_n = found_sd_n * std::sqrt(trust_in_found),
+            .iri_per_n = iri_per_n};
+}
+
+/// Finds the friction that adds the damping that is shown, over the strokes of the drive.
+Friction friction_of(const DriveRecord& drive,
+                     Point point,
+                     const ShownDamping& damping,
+                     const TuningConfig& config) {
+    const auto usual = usual_friction_n(point.vehicle.half_car);
+    const auto with = [&](double friction_n) {
+        point.friction_n = friction_n;
+        return run(drive, point, config, first_rounds, nullptr);
+    };
+    const auto less = with(usual.mean / 2);
+    const auto more = with(usual.mean * 3 / 2);
+    const double added_per_n =
+        (mean_added_damping(less.which.front()) + mean_added_damping(more.which.front())) /
+        (2 * usual.mean);
+    return joined(damping.added / added_per_n,
+                  damping.sd / added_per_n,
+                  (mean_stroke(more) / mean_stroke(less) - 1) / usual.mean,
+                  point.vehicle.half_car);
+}
+
+/// Finds friction from the likelihood at even steps, with a parabola through the maximum.
+Friction friction_by_likelihood(const DriveRecord& drive, Point point, const TuningConfig& config) {
     const double size = point.vehicle.half_car.ms_kg / usual_mass_kg;
     const double step_n = friction_step_n * size;
     std::vector<RoadEstimate> at; // each from an even road, to treat all alike
@@ -192,11 +221,10 @@ Friction friction_of(const DriveRecord& drive, Point point, const TuningConfig& 
     const double found_n = (static_cast<double>(last - 1) + peak) * step_n;
     const double found_sd_n =
         std::hypot(friction_model_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n);
-    const auto usual = usual_friction_n(point.vehicle.half_car);
-    const double trust_in_found = 1 / (1 + std::pow(found_sd_n / usual.sd, 2));
-    return {.force_n = std::lerp(usual.mean, std::max(0.0, found_n), trust_in_found),
-            .sd_n = found_sd_n * std::sqrt(trust_in_found),
-            .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
+    return joined(std::max(0.0, found_n),
+                  found_sd_n,
+                  (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n),
+                  point.vehicle.half_car);
 }
 
 /// Differentiates the likelihood about a point: the same road with one unknown moved at a time.
@@ -250,12 +278,14 @@ Peak peak_about(const DriveRecord& drive,
 TunedCar tuned_car(const DriveRecord& drive,
                    const Vehicle& vehicle,
                    const SmootherConfig& smoother,
+                   const std::optional<ShownDamping>& damping,
                    const std::stop_token& stop) {
     const TuningConfig config{smoother, stop};
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
     if (!vehicle.half_car.friction_n) {
-        const auto friction = friction_of(drive, point, config);
+        const auto friction = damping ? friction_of(drive, point, *damping, config)
+                                      : friction_by_likelihood(drive, point, config);
         point.friction_n = friction.force_n;
         tuned.friction_sd_n = friction.sd_n;
         tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);

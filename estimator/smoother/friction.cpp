@@ -76,4 +76,12 @@ std::vector<std::uint8_t> damping_with_friction(const DriveRecord& drive,
     return which;
 }
 
+double mean_added_damping(std::span<const std::uint8_t> which) {
+    double sum = 0;
+    for (const auto car : which) {
+        sum += std::pow(harder, car) - 1;
+    }
+    return sum / static_cast<double>(which.size());
+}
+
 } // namespace macadam

@@ -25,4 +25,8 @@ std::vector<std::uint8_t> damping_with_friction(const DriveRecord& drive,
                                                 std::span<const std::vector<Pair>> roads_m,
                                                 double friction_n);
 
+/// Returns what friction adds to the vehicle's own damping in the mean over the cars that
+/// damping_with_friction() selected, relative to it.
+double mean_added_damping(std::span<const std::uint8_t> which);
+
 } // namespace macadam

@@ -3,7 +3,6 @@
 #include "estimator/smoother/car/linear_car.hpp"
 #include "estimator/smoother/friction.hpp"
 #include "estimator/smoother/stretch_record.hpp"
-#include "estimator/smoother/vibration/car_from_vibration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -212,14 +211,42 @@ RoadEstimate estimate_of(VehicleDrive drive, bool roll_apart, const SmootherConf
     return with_half(smooth_drives({std::move(drive)}, config), std::move(roll), config);
 }
 
+/// Returns the damping shown by a trip as it is over samples [from, to), where the wheels hop more
+/// or less than in the mean of the trip.
+std::optional<ShownDamping> in_piece(std::optional<ShownDamping> damping,
+                                     const Stretch& stretch,
+                                     std::size_t from,
+                                     std::size_t to) {
+    const auto cut = [=](const std::vector<float>& values) {
+        return std::vector<float>(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                  values.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    if (!damping || stretch.vertical_mps2.empty()) {
+        return std::nullopt;
+    }
+    Stretch piece{};
+    piece.step_s = stretch.step_s;
+    piece.vertical_mps2 = cut(stretch.vertical_mps2);
+    piece.speed_mps = cut(stretch.speed_mps);
+    VibrationSpectra spectra;
+    add(spectra, piece);
+    if (!spectra.windows.empty()) {
+        const double here = inverse_strength(spectra);
+        damping->added *= here / damping->inverse_strength;
+        damping->sd *= here / damping->inverse_strength;
+        damping->inverse_strength = here;
+    }
+    return damping;
+}
+
 } // namespace
 
 TunedCar car_in(const Stretch& stretch,
-                const Vehicle& vehicle,
+                const VibratingCar& car,
                 const EstimatorConfig& config,
-                const std::stop_token& stop,
-                const Resonance& mount) {
-    auto drive = drive_of(stretch, vehicle, config, mount);
+                const std::stop_token& stop) {
+    const auto& vehicle = car.vehicle;
+    auto drive = drive_of(stretch, vehicle, config, car.mount);
     if (is_roll_apart(drive, config)) {
         drive.felt[roll_channel].clear();
         drive.variance[roll_channel].clear();
@@ -229,7 +256,7 @@ TunedCar car_in(const Stretch& stretch,
                 .friction_n =
                     vehicle.half_car.friction_n.value_or(usual_friction_n(vehicle.half_car).mean),
                 .iri_sd = untuned_sd,
-                .mount = mount};
+                .mount = car.mount};
     }
     const std::size_t count = std::min(drive.travel_m.size(), tuning_samples);
     const std::size_t from = (drive.travel_m.size() - count) / 2;
@@ -239,8 +266,9 @@ TunedCar car_in(const Stretch& stretch,
     }
     auto piece = piece_of(drive, from, from + count);
     piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
-    auto tuned = tuned_car(piece, tunable, {}, stop);
-    tuned.mount = mount;
+    auto tuned =
+        tuned_car(piece, tunable, {}, in_piece(car.damping, stretch, from, from + count), stop);
+    tuned.mount = car.mount;
     tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
     if (tunable.uncertainty.empty()) {
         tuned.iri_sd = std::hypot(tuned.iri_sd, untuned_iri_sd(vehicle, false));
@@ -258,7 +286,7 @@ CarOfTrip car_of_trip(const VibrationSpectra& spectra,
     if (found.found_axles && config.tracks && !config.sensors) {
         of_found.sensors = SensorSet{.vertical = true, .pitch = true, .yaw = true};
     }
-    auto car = car_in(stretch, found.vehicle, of_found, stop, found.mount);
+    auto car = car_in(stretch, found, of_found, stop);
     return {std::move(car), of_found};
 }
 

@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/smoother/car_tuning.hpp"
+#include "estimator/smoother/vibration/car_from_vibration.hpp"
 #include "estimator/smoother/vibration/vibration_spectra.hpp"
 
 namespace macadam {
@@ -14,10 +15,9 @@ namespace macadam {
 ///           is not sufficient. The vehicle itself if the stretch is too short.
 /// \throws InputError  after a stop request.
 TunedCar car_in(const Stretch& stretch,
-                const Vehicle& vehicle,
+                const VibratingCar& car,
                 const EstimatorConfig& config,
-                const std::stop_token& stop = {},
-                const Resonance& mount = {});
+                const std::stop_token& stop = {});
 
 /// Car as the vibration of a trip tells it, and the configuration with which it is read: the tracks
 /// are not told apart under axles that were found.

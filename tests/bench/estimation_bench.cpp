@@ -162,7 +162,7 @@ void tuning_of_a_car(benchmark::State& state) {
         car.uncertainty[name] = 0.05;
     }
     for (auto _ : state) {
-        benchmark::DoNotOptimize(car_in(stretch, car, EstimatorConfig{}));
+        benchmark::DoNotOptimize(car_in(stretch, {.vehicle = car}, EstimatorConfig{}));
     }
     tell_of_smoother(state, stretch);
 }

@@ -134,4 +134,12 @@ void add(VibrationSpectra& spectra, const Stretch& stretch) {
     }
 }
 
+double inverse_strength(const VibrationSpectra& spectra) {
+    double sum = 0;
+    for (const auto& window : spectra.windows) {
+        sum += 1 / std::sqrt(window.low);
+    }
+    return sum / static_cast<double>(spectra.windows.size());
+}
+
 } // namespace macadam

@@ -44,4 +44,7 @@ struct VibrationSpectra {
 /// Adds a stretch that contains vertical acceleration. Others are ignored.
 void add(VibrationSpectra& spectra, const Stretch& stretch);
 
+/// Returns the mean over the windows of one over the strength of wheel hop, s^2/m.
+double inverse_strength(const VibrationSpectra& spectra);
+
 } // namespace macadam

@@ -32,7 +32,7 @@ IriTrace trace_of(const MethodRow& row, const Stretch& stretch, const Vehicle& v
         return {{estimate_iri(stretch, vehicle, config)}, {}};
     }
     config.sensors = row.sensors;
-    return {{smoothed_iri(stretch, car_in(stretch, vehicle, config), config)}, {}};
+    return {{smoothed_iri(stretch, car_in(stretch, {.vehicle = vehicle}, config), config)}, {}};
 }
 
 } // namespace

@@ -97,7 +97,7 @@ profile_of(const RoadUnderWheels& road, const Drive& drive, const Sensors& senso
     EstimatorConfig config;
     config.method = Method::smoother;
     config.profile = true;
-    return smoothed_iri(stretch, car_in(stretch, vehicle, config), config).profile;
+    return smoothed_iri(stretch, car_in(stretch, {.vehicle = vehicle}, config), config).profile;
 }
 
 bool is_pothole_near(const RoadEvent& event, double at_m) {

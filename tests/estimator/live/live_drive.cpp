@@ -135,7 +135,7 @@ OfflineTrace offline_trace(const TripLog& trip, const Vehicle& vehicle, const Li
             trace.runs.push_back(estimate_iri(stretch, vehicle, config.estimator));
             continue;
         }
-        car = car ? car : car_in(stretch, vehicle, config.estimator);
+        car = car ? car : car_in(stretch, {.vehicle = vehicle}, config.estimator);
         trace.runs.push_back(smoothed_iri(stretch, *car, config.estimator));
     }
     return {std::move(odometer), std::move(trace)};

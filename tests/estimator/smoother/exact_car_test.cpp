@@ -75,7 +75,7 @@ double mean_iri(const IriRun& run) {
 TEST(ExactCar, StaysWhatItsFileSaysOnAMeasuredRoad) {
     const auto vehicle = exact_car();
     const auto stretch = drive_over(measured_road(), vehicle);
-    const auto tuned = car_in(stretch, vehicle, of_map()).vehicle;
+    const auto tuned = car_in(stretch, {.vehicle = vehicle}, of_map()).vehicle;
     EXPECT_DOUBLE_EQ(tuned.half_car.ms_kg, vehicle.half_car.ms_kg);
     EXPECT_DOUBLE_EQ(tuned.half_car.cs_ns_per_m, vehicle.half_car.cs_ns_per_m);
     EXPECT_NEAR(tuned.half_car.ks_n_per_m / vehicle.half_car.ks_n_per_m, 1, 0.02);
@@ -89,7 +89,8 @@ TEST(ExactCar, ReadsTheIriWithinAPercentOfWhatItReadsUntuned) {
     certain.uncertainty.clear();
     const auto stretch = drive_over(measured_road(), vehicle);
     const auto iri_of = [&](const Vehicle& car) {
-        return mean_iri(smoothed_iri(stretch, car_in(stretch, car, of_map()), of_map()));
+        return mean_iri(
+            smoothed_iri(stretch, car_in(stretch, {.vehicle = car}, of_map()), of_map()));
     };
     EXPECT_NEAR(iri_of(vehicle) / iri_of(certain), 1, 0.01);
 }
@@ -100,7 +101,7 @@ TEST(ExactCar, TellsADynamicIndexThatItsFileDoesNotState) {
         auto driven = stated;
         driven.axles->dynamic_index = truth;
         const auto stretch = drive_over(measured_road(), driven);
-        const auto tuned = car_in(stretch, stated, of_map()).vehicle;
+        const auto tuned = car_in(stretch, {.vehicle = stated}, of_map()).vehicle;
         EXPECT_NEAR(tuned.axles->dynamic_index, truth, 0.04);
     }
 }
@@ -111,7 +112,7 @@ TEST(ExactCar, TellsASensorThatIsNotWhereItsFileSays) {
         auto driven = stated;
         driven.imu.x_m += off_m;
         const auto stretch = drive_over(measured_road(), driven);
-        const auto tuned = car_in(stretch, stated, of_map()).vehicle;
+        const auto tuned = car_in(stretch, {.vehicle = stated}, of_map()).vehicle;
         EXPECT_NEAR(tuned.imu.x_m, driven.imu.x_m, 0.08);
     }
 }

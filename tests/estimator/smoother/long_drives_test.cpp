@@ -85,7 +85,8 @@ TEST(TunedCar, FindsTheFrictionOfItsCar) {
     for (const double friction_n : {20.0, 60.0}) {
         auto recipe = drive_of(1300);
         recipe.car.friction_n = friction_n;
-        const auto tuned = car_in(driven_road(recipe).stretch, car(), smoother_config());
+        const auto tuned =
+            car_in(driven_road(recipe).stretch, {.vehicle = car()}, smoother_config());
         std::printf(
             "friction %.0f N: %.1f +- %.1f N\n", friction_n, tuned.friction_n, tuned.friction_sd_n);
         EXPECT_NEAR(tuned.friction_n, friction_n, 3 * tuned.friction_sd_n) << friction_n;
@@ -94,7 +95,8 @@ TEST(TunedCar, FindsTheFrictionOfItsCar) {
 }
 
 TEST(TunedCar, LeavesAKnownCarAlone) {
-    const auto tuned = car_in(driven_road(drive_of(1300)).stretch, car(), smoother_config());
+    const auto tuned =
+        car_in(driven_road(drive_of(1300)).stretch, {.vehicle = car()}, smoother_config());
     const auto& found = tuned.vehicle.half_car;
     EXPECT_EQ(found.cs_ns_per_m, car().half_car.cs_ns_per_m);
     EXPECT_EQ(found.ks_n_per_m, car().half_car.ks_n_per_m);
@@ -111,7 +113,8 @@ TEST(TunedCar, KeepsADamperThatMayBeWrongAndSaysHowFarItsIriMayBeOff) {
     stated.half_car.cs_ns_per_m *= 0.8;
     stated.half_car.friction_n = 0;
     stated.uncertainty["cs_ns_per_m"] = 0.2;
-    const auto tuned = car_in(driven_road(drive_of(1300)).stretch, stated, smoother_config());
+    const auto tuned =
+        car_in(driven_road(drive_of(1300)).stretch, {.vehicle = stated}, smoother_config());
     EXPECT_EQ(tuned.vehicle.half_car.cs_ns_per_m, stated.half_car.cs_ns_per_m);
     EXPECT_EQ(tuned.friction_n, 0);
     EXPECT_NEAR(tuned.iri_sd, 0.6 * 0.2, 0.02); // relative, of a damper off by one sd

@@ -278,7 +278,7 @@ TEST(SmoothedIri, IsTheSameAgain) {
 }
 
 TEST(CarIn, ATooShortStretchIsTheVehicleItselfAndNotWellKnown) {
-    const auto tuned = car_in(short_stretch(), car(), smoother_config());
+    const auto tuned = car_in(short_stretch(), {.vehicle = car()}, smoother_config());
     EXPECT_EQ(tuned.vehicle.half_car.cs_ns_per_m, car().half_car.cs_ns_per_m);
     EXPECT_EQ(tuned.friction_n, usual_friction_n(car().half_car).mean);
     EXPECT_EQ(tuned.iri_sd, 0.1);
@@ -289,7 +289,8 @@ TEST(CarIn, IsNotTunedAfterAStopRequest) {
         driven_road({.road = {.iri_mm_per_m = 2}, .car = linear_car_of(car()), .length_m = 1300});
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW(car_in(drive.stretch, car(), smoother_config(), stop.get_token()), InputError);
+    EXPECT_THROW(car_in(drive.stretch, {.vehicle = car()}, smoother_config(), stop.get_token()),
+                 InputError);
 }
 
 } // namespace macadam::testing

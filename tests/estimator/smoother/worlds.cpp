@@ -60,7 +60,7 @@ IriRun smoothed(const Stretch& stretch, const Vehicle& vehicle, const SensorSet&
     EstimatorConfig config;
     config.method = Method::smoother;
     config.sensors = sensors;
-    return smoothed_iri(stretch, car_in(stretch, vehicle, config), config);
+    return smoothed_iri(stretch, car_in(stretch, {.vehicle = vehicle}, config), config);
 }
 
 IriRun filtered(const Stretch& stretch, const Vehicle& vehicle, Channels channels) {
