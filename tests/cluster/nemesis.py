@@ -50,7 +50,10 @@ class Nemesis:
 
     def standby(self, synchronous):
         for _ in range(120):
-            following, waited_for = self.cluster.standbys()
+            try:
+                following, waited_for = self.cluster.standbys()
+            except psycopg2.Error:
+                following = []  # there is no primary that could tell
             if following:
                 names = waited_for if synchronous and waited_for else sorted(following)
                 return self.cluster.nodes[NAMES.index(self.random.choice(names))]
