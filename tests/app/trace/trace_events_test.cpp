@@ -1,5 +1,7 @@
 // `trace --events`, by the program itself.
 
+#include "estimator/vehicle/vehicle_prior.hpp"
+#include "storage/settings/vehicle_writer.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -33,14 +35,16 @@ protected:
             const bool in_hole = part > 0 && part < 1;
             return plain(at_m) - (in_hole ? hole_depth_m * std::pow(std::sin(M_PI * part), 2) : 0);
         };
-        write_file(folder_ / "drive.trip.csv",
-                   text_of(drive_over(road, drive_, *built_in_vehicle("golden-car")), drive_));
+        auto car = *built_in_vehicle("golden-car");
+        write_file(folder_ / "drive.trip.csv", text_of(drive_over(road, drive_, car), drive_));
+        car.imu.lowpass_hz = no_lowpass_hz; // as it is simulated
+        write_file(folder_ / "car.toml", vehicle_text(car));
     }
 
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
     testing::Run trace(std::vector<std::string> more) const {
-        std::vector<std::string> words{"trace", at("drive.trip.csv")};
+        std::vector<std::string> words{"trace", at("drive.trip.csv"), "--vehicle", at("car.toml")};
         words.insert(words.end(), more.begin(), more.end());
         return run_macadam(words);
     }
@@ -70,9 +74,7 @@ TEST_F(TraceEvents, WritesAHoleWithItsPlaceAndDepth) {
     EXPECT_EQ(lines[0],
               "kind,severity,track,size_mm,size_sd_mm,length_m,travel_m,t_s,lat_deg,lon_deg,"
               "speed_mps,score");
-    // Its sensor has no low-pass, and one is assumed: the hole reads deeper, here beyond
-    // "moderate".
-    EXPECT_THAT(lines[1], StartsWith("pothole,"));
+    EXPECT_THAT(lines[1], StartsWith("pothole,moderate,unknown,"));
     const auto cells = split(lines[1], ',');
     ASSERT_THAT(cells, SizeIs(12));
     EXPECT_NEAR(std::stod(cells[3]), 1000 * hole_depth_m, 2 * std::stod(cells[4]));
@@ -85,9 +87,9 @@ TEST_F(TraceEvents, WritesAHoleWithItsPlaceAndDepth) {
 TEST_F(TraceEvents, WritesJsonAndPointsOfGeoJson) {
     ASSERT_EQ(trace({"--events", at("events.json")}).exit_status, 0);
     ASSERT_EQ(trace({"--events", at("events.geojson")}).exit_status, 0);
-    EXPECT_THAT(
-        read_file(at("events.json")),
-        AllOf(StartsWith("[{\"kind\":\"pothole\",\"severity\":"), HasSubstr("\"lat_deg\":48.0")));
+    EXPECT_THAT(read_file(at("events.json")),
+                AllOf(StartsWith("[{\"kind\":\"pothole\",\"severity\":\"moderate\","),
+                      HasSubstr("\"lat_deg\":48.0")));
     EXPECT_THAT(read_file(at("events.geojson")),
                 AllOf(StartsWith("{\"type\":\"FeatureCollection\",\"features\":["),
                       HasSubstr("{\"type\":\"Point\",\"coordinates\":[11.0"),
