@@ -10,6 +10,8 @@
 #include "estimator/common/error.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/motion/trip_motion.hpp"
+#include "estimator/smoother/response_inverse.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/profiles/profile_reader.hpp"
 #include "storage/settings/vehicle_writer.hpp"
@@ -20,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
 namespace macadam {
 namespace {
@@ -85,7 +88,7 @@ RoadProfile road_of(const MeasuredProfile& measured, const fs::path& file) {
 }
 
 std::vector<Stretch> stretches_of(const TripLog& trip) {
-    const StretchConfig config;
+    const StretchConfig config; // the log's own rate, at most 200 Hz
     const auto motion = motion_of(trip);
     const auto found = find_stretches(trip, motion.odometer, config, motion.mounting.otherwise);
     std::vector<Stretch> stretches;
@@ -113,6 +116,22 @@ InputError nothing_on_profile(const LocatedTrip& trip, const IdentifyOptions& op
                                   trip.place.at_m)};
 }
 
+/// Returns the car with the low-pass that `import` will assume, so that no damping stands in for
+/// it; beyond 200 Hz it makes no difference.
+Vehicle with_lowpass_of_log(const Vehicle& vehicle, std::span<const Stretch> stretches) {
+    return stretches.empty() ? vehicle : with_usual_lowpass(vehicle, 1 / stretches.front().step_s);
+}
+
+/// Removes the sensor's own low-pass from the readings.
+ProfileResponse without_lowpass(ProfileResponse ride, const ImuMount& imu) {
+    if (imu.lowpass_hz < no_lowpass_hz) {
+        for (auto* readings : {&ride.vertical_mps2, &ride.lateral_mps2}) {
+            *readings = inverse_lowpass(*readings, ride.step_s, imu.lowpass_hz, imu.lowpass_order);
+        }
+    }
+    return ride;
+}
+
 struct Identified {
     Vehicle vehicle;
     IdentifyOutput output;
@@ -137,6 +156,7 @@ Identified identified_by_spectrum(const LocatedTrip& trip,
     if (!longest) {
         throw nothing_on_profile(trip, options);
     }
+    longest = without_lowpass(std::move(*longest), vehicle.imu);
     const auto fit = with_trip_name(trip.name, [&] {
         return fit_spectra(
             *longest, vehicle.half_car, vehicle.imu.height_above_roll_axis_m, SpectrumFitConfig{});
@@ -253,12 +273,13 @@ void run_identify(const Arguments& arguments, const Console& console) {
         console.warn(chosen.warning);
     }
     auto stretches = with_trip_name(source.name(), [&] { return stretches_of(trip); });
-    const auto place = locate_on_profile(
-        stretches, road, chosen.vehicle, options.at_m, options.trip, options.profile);
+    const auto vehicle = with_lowpass_of_log(chosen.vehicle, stretches);
+    const auto place =
+        locate_on_profile(stretches, road, vehicle, options.at_m, options.trip, options.profile);
     const LocatedTrip located{source.name(), std::move(stretches), road, place};
-    const bool by_likelihood = is_likelihood(chosen.vehicle, options, console);
+    const bool by_likelihood = is_likelihood(vehicle, options, console);
     const auto identify = by_likelihood ? identified_by_likelihood : identified_by_spectrum;
-    const auto result = identify(located, chosen.vehicle, trip.meta.vehicle_id, options);
+    const auto result = identify(located, vehicle, trip.meta.vehicle_id, options);
     for (const auto& warning : result.warnings) {
         console.warn(warning);
     }

@@ -2,6 +2,7 @@
 
 #include "estimator/identification/rides.hpp"
 #include "estimator/simulation/linear_ride.hpp"
+#include "estimator/vehicle/vehicle_prior.hpp"
 #include "storage/settings/vehicle_file.hpp"
 #include "storage/settings/vehicle_writer.hpp"
 #include "support/program/program.hpp"
@@ -58,14 +59,23 @@ class Identify : public ::testing::Test {
 protected:
     void SetUp() override {
         folder_ = fresh_folder();
-        auto car = linear_car();
-        car.vehicle.name = "mine";
-        car.vehicle.axles = Axles{.wheelbase_m = 2.65, .cg_to_front_m = 1.325};
-        const auto surface = make_surface({.iri_mm_per_m = 4}, 560, 5);
-        write_file(folder_ / "drive.trip.csv",
-                   trip_text(two_axle_ride(car, surface, steady_motion(15, 36), 50)));
-        write_file(folder_ / "road.csv", profile_text(profile_of(surface)));
-        write_file(folder_ / "mine.toml", vehicle_text(car.vehicle));
+        write_drive(0);
+        write_car(no_lowpass_hz);
+        write_file(folder_ / "road.csv", profile_text(profile_of(surface())));
+    }
+
+    /// A drive of 36 s at 50 Hz, of a sensor with this low-pass; 0: none.
+    void write_drive(double lowpass_hz) const {
+        write_file(
+            folder_ / "drive.trip.csv",
+            trip_text(two_axle_ride(car(), surface(), steady_motion(15, 36), 50, lowpass_hz)));
+    }
+
+    /// The car's file, which states this low-pass, or 0: does not state one.
+    void write_car(double lowpass_hz) const {
+        auto vehicle = car().vehicle;
+        vehicle.imu.lowpass_hz = lowpass_hz;
+        write_file(folder_ / "mine.toml", vehicle_text(vehicle));
     }
 
     std::string at(const char* name) const { return (folder_ / name).string(); }
@@ -82,6 +92,16 @@ protected:
     }
 
     std::filesystem::path folder_;
+
+private:
+    static CarRecipe car() {
+        auto recipe = linear_car();
+        recipe.vehicle.name = "mine";
+        recipe.vehicle.axles = Axles{.wheelbase_m = 2.65, .cg_to_front_m = 1.325};
+        return recipe;
+    }
+
+    static RoadSurface surface() { return make_surface({.iri_mm_per_m = 4}, 560, 5); }
 };
 
 TEST_F(Identify, SaysBySpectrumWhatItFoundAndWhatTheGainMeans) {
@@ -139,6 +159,27 @@ TEST_F(Identify, FindsTheCarThatDrove) {
     }
     EXPECT_THAT(read_file(folder_ / "found.toml"),
                 StartsWith("# Identified by 'macadam identify --method likelihood' from "));
+}
+
+// A damper that stands in for the sensor's low-pass would have it removed twice by `import`.
+TEST_F(Identify, FindsTheSameCarBehindTheUsualLowpassWhereTheFileStatesNone) {
+    constexpr double usual_hz = 20;    // 0.4 of the rate
+    constexpr double tolerance = 0.02; // of a damper; 0.1 and more where it stands in
+    for (const char* method : {"likelihood", "spectrum"}) {
+        const auto found_behind = [&](double sensor_hz, double stated_hz) {
+            write_drive(sensor_hz);
+            write_car(stated_hz);
+            const auto run = identify({"--method", method, "--at", "1000", "-o", at("found.toml")});
+            EXPECT_EQ(run.exit_status, 0) << run.err;
+            return read_vehicle(folder_ / "found.toml");
+        };
+        const auto without = found_behind(0, no_lowpass_hz);
+        const auto behind = found_behind(usual_hz, 0);
+        EXPECT_NEAR(behind.half_car.cs_ns_per_m / without.half_car.cs_ns_per_m, 1, tolerance)
+            << method;
+        EXPECT_EQ(without.imu.lowpass_hz, no_lowpass_hz) << method;
+        EXPECT_NEAR(behind.imu.lowpass_hz, usual_hz, 0.01) << method; // as `import` assumes
+    }
 }
 
 TEST_F(Identify, TellsTheSameAsJson) {

@@ -47,13 +47,15 @@ Stretch one_axle_ride(const Vehicle& vehicle,
 Stretch two_axle_ride(const CarRecipe& car,
                       const RoadSurface& surface,
                       const Motion& motion,
-                      double rate_hz) {
+                      double rate_hz,
+                      double lowpass_hz) {
     const auto paths = wheel_paths(surface);
     const RoadUnderWheels road{.step_m = paths.step_m,
                                .left_m = {paths.left_m.begin(), paths.left_m.end()},
                                .right_m = {paths.right_m.begin(), paths.right_m.end()}};
     ImuRecipe imu = perfect_imu(rate_hz);
     imu.noise_mps2 = 0.05;
+    imu.lowpass_hz = lowpass_hz;
     const auto readings = simulate_imu(car, imu, road, motion, 3);
 
     Stretch stretch{};

@@ -18,10 +18,13 @@ Stretch
 one_axle_ride(const Vehicle& vehicle, const RoadProfile& profile, double speed_mps, double rate_hz);
 
 /// A two-axle car of the simulation over the surface's wheel paths, noise 0.05 m/s2.
+///
+/// \param lowpass_hz  of the sensor; 0: none
 Stretch two_axle_ride(const CarRecipe& car,
                       const RoadSurface& surface,
                       const Motion& motion,
-                      double rate_hz);
+                      double rate_hz,
+                      double lowpass_hz = 0);
 
 /// Between two speeds and back, once in `period_s`.
 Motion swinging_motion(double slow_mps, double quick_mps, double period_s, double duration_s);

@@ -38,28 +38,57 @@ void expect_success(const fs::path& folder, const std::string& command) {
     }
 }
 
-} // namespace
-
-PostgresServer::PostgresServer(std::chrono::seconds most) : most_{most} {
+/// Creates a folder for whoever runs the server.
+fs::path new_folder() {
     std::string name = "/tmp/macadam-pg-XXXXXX"; // paths of sockets have at most 107 bytes
     if (mkdtemp(name.data()) == nullptr) {
         throw std::runtime_error{"cannot create " + name};
     }
-    folder_ = name;
+    if (geteuid() == 0) {
+        expect_success(name, fmt::format("chown nobody:nogroup {}", name));
+    }
+    return name;
+}
+
+/// Data of a server that never ran, made once for all servers of the process.
+class FreshData {
+public:
+    FreshData() : folder_{new_folder()} {
+        expect_success(folder_,
+                       fmt::format("cd / && {} {}/initdb -D {} -U boss -A trust -E UTF8"
+                                   " --locale=C.UTF-8 --no-sync --no-instructions",
+                                   as_ordinary_user(),
+                                   server_programs().string(),
+                                   path().string()));
+    }
+    FreshData(const FreshData&) = delete;
+    FreshData& operator=(const FreshData&) = delete;
+    ~FreshData() {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+
+    fs::path path() const { return folder_ / "data"; }
+
+private:
+    fs::path folder_;
+};
+
+void copy_fresh_data(const fs::path& to) {
+    static const FreshData fresh;
+    expect_success(
+        to.parent_path(),
+        fmt::format(
+            "cd / && {} cp -r {} {}", as_ordinary_user(), fresh.path().string(), to.string()));
+}
+
+} // namespace
+
+PostgresServer::PostgresServer(std::chrono::seconds most) : folder_{new_folder()}, most_{most} {
     // Where the program keeps keys and roads of databases on servers.
     setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1); // NOLINT(concurrency-mt-unsafe)
     setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);   // NOLINT(concurrency-mt-unsafe)
-    const auto programs = server_programs().string();
-    if (geteuid() == 0) {
-        expect_success(folder_, fmt::format("chown nobody:nogroup {}", name));
-    }
-    const auto run = "cd / && unset PGHOST PGUSER PGDATABASE PGPASSWORD; " + as_ordinary_user();
-    expect_success(folder_,
-                   fmt::format("{} {}/initdb -D {}/data -U boss -A trust -E UTF8 --locale=C.UTF-8"
-                               " --no-sync --no-instructions",
-                               run,
-                               programs,
-                               name));
+    copy_fresh_data(folder_ / "data");
     start();
 }
 
