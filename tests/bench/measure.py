@@ -1,15 +1,17 @@
 #!/usr/bin/python3
 """Measures the program and its parts and writes what was found as Markdown.
 
-usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--cars N] [--soak MINUTES] [NAME...]
+usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--cars N] [--side N] [--soak MINUTES] [NAME...]
 
 BUILD_DIR      a release build with the target `benches`
 WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
+--side N       crossings along a side of the town of `growth`, 223 unless given: a million segments, 20 million passes; 705
+               are ten times as many, and need 60 GB of disk in /tmp
 --soak MINUTES how long `serve` also works at half load, to see whether it grows
-NAME           start process estimation match store writers calibration render vector_tile web serve; all when none
+NAME           start process estimation match store writers growth calibration render vector_tile web serve; all when none
                is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
@@ -278,7 +280,7 @@ PARTS = {
                    "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
-          "writers": "Writers of a PostgreSQL server",
+          "writers": "Writers of a PostgreSQL server", "growth": "Growth of a PostgreSQL server",
           "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles", "web": "Web page", "serve": "Server"}
 
 
@@ -364,8 +366,8 @@ def web_page(build, work, macadam):
         table(["page", "first picture", "transferred", "panning", "memory of its process"], []) + rows
 
 
-def writers(build):
-    """Trips stored on a PostgreSQL server of its own, which syncs them to the disk of /tmp, by up to four writers."""
+def on_server(program, *words):
+    """What a program prints that works on a PostgreSQL server of its own, which syncs to the disk of /tmp."""
     programs = max(Path("/usr/lib/postgresql").glob("*/bin"))
     folder = Path(tempfile.mkdtemp(prefix="macadam-pg-", dir="/tmp"))  # paths of sockets are short
     ordinary = ["setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"] if os.geteuid() == 0 else []
@@ -382,13 +384,25 @@ def writers(build):
     call(*control, "-o", f"-c listen_addresses= -c unix_socket_directories={folder} -c shared_buffers=512MB -c max_wal_size=4GB", "start")
     try:
         call(programs / "psql", "-qX", "-h", folder, "-U", "bench", "postgres", "-c", "CREATE EXTENSION postgis")
-        say("server_writers")
-        return "Trips of 500 passes on some 90 chunks, with traces, each in a transaction that is synced; beside them the same rows in a " + \
-            "COPY into a table without keys (tests/bench/server_writers.cpp); medians of three rounds, in turns.\n\n" + \
-            call(build / "tests" / "bench" / "server_writers", f"postgresql://bench@/postgres?host={folder}")
+        say(program.name)
+        return call(program, f"postgresql://bench@/postgres?host={folder}", *words)
     finally:
         call(*control, "-m", "immediate", "stop")
         shutil.rmtree(folder)
+
+
+def writers(build):
+    """Trips stored by up to four writers."""
+    return "Trips of 500 passes on some 90 chunks, with traces, each in a transaction that is synced; beside them the same rows in a " + \
+        "COPY into a table without keys (tests/bench/server_writers.cpp); medians of three rounds, in turns.\n\n" + \
+        on_server(build / "tests" / "bench" / "server_writers")
+
+
+def growth(build, side):
+    """What a database costs while its passes double."""
+    return "Trips as above, by four writers, until each segment has 20 passes (tests/bench/server_growth.cpp). At each doubling what " + \
+        "waits is fused for 20 s by one connection, and squares of 1 km are read as `query --bbox` does.\n\n" + \
+        on_server(build / "tests" / "bench" / "server_growth", side)
 
 
 def calibration(build, work, macadam, cars):
@@ -417,6 +431,8 @@ def measured(name, arguments, macadam):
         return calibration(arguments.build, arguments.work, macadam, arguments.cars)
     if name == "writers":
         return writers(arguments.build)
+    if name == "growth":
+        return growth(arguments.build, arguments.side)
     if name == "start":
         return start(macadam, arguments.work)
     if name == "process":
@@ -446,6 +462,7 @@ def main():
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--kubicka", type=Path)
     parser.add_argument("--cars", type=int, default=2500)
+    parser.add_argument("--side", type=int, default=223)
     parser.add_argument("--soak", type=float, default=0, metavar="MINUTES")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_intermixed_args()

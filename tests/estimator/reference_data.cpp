@@ -1,4 +1,5 @@
 #include "reference_data.hpp"
+#include "support/program/places.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -30,7 +31,7 @@ Road road_of(const std::string& name) {
 } // namespace
 
 std::vector<std::vector<double>> read_table(const std::string& name, int skip) {
-    std::ifstream in{MACADAM_SOURCE_DIR "/tests/data/" + name};
+    std::ifstream in{source_folder() + "/tests/data/" + name};
     if (!in) {
         throw std::runtime_error{"cannot open tests/data/" + name};
     }

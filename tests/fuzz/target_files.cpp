@@ -1,4 +1,5 @@
 #include "target_files.hpp"
+#include "support/program/places.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = MACADAM_SOURCE_DIR "/tests/fuzz";
+const fs::path folder = testing::source_folder() + "/tests/fuzz";
 
 std::string content_of(const fs::path& file) {
     std::ifstream in{file, std::ios::binary};
@@ -108,7 +109,7 @@ std::vector<std::string> readers_that_are_not_there() {
         std::string word;
         words >> word; // the target
         while (words >> word) {
-            if (!std::filesystem::exists(std::filesystem::path{MACADAM_SOURCE_DIR} / word)) {
+            if (!std::filesystem::exists(std::filesystem::path{testing::source_folder()} / word)) {
                 missing.push_back(word);
             }
         }

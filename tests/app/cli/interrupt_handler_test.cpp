@@ -4,6 +4,7 @@
 #include "storage/networks/network_file.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/road_store.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/store_world.hpp"
 #include "support/roads/town.hpp"
@@ -248,7 +249,7 @@ TEST(NetworkFileInUse, CutShortByOthersEndsTheCommandWithWords) {
     {
         std::ofstream rows{trip}; // waits for the program, which has opened the network then
         fs::resize_file(network, 0);
-        rows << read_file(MACADAM_SOURCE_DIR "/tests/fuzz/seeds/trip_trace/receiver.csv");
+        rows << read_file(source_folder() + "/tests/fuzz/seeds/trip_trace/receiver.csv");
     }
     const auto ended = run.get();
     EXPECT_EQ(ended.exit_status, 1);
@@ -301,7 +302,7 @@ TEST(Output, OfTwoProcessesOfOneNumberIsWholeAndOfOneOfThem) {
                         "shared.geojson 2> err.$n & done; wait",
                         folder.string(),
                         own_numbers,
-                        MACADAM_PROGRAM);
+                        program_file());
         ASSERT_EQ(std::system(line.c_str()), 0);
         EXPECT_EQ(read_file(folder / "shared.geojson"), read_file(alone));
         fs::remove(folder / "shared.geojson");

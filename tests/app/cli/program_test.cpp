@@ -1,5 +1,6 @@
 // The program as users run it: the whole line from real logs to maps.
 
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -20,7 +21,7 @@ using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const fs::path sample_data = fs::path{MACADAM_SOURCE_DIR} / "sample_data";
+const fs::path sample_data = fs::path{source_folder()} / "sample_data";
 const auto rav4 = (sample_data / "comma2k19/comma2k19_rav4.trip.csv").string();
 const auto gyor = (sample_data / "gyor/gyor_q3_00.trip.csv").string();
 
@@ -207,7 +208,7 @@ TEST(Program, ImportsAFolderOfSimulatedCarsAndFindsTheRoughPatch) {
 TEST(Program, TakesATownOfOpenStreetMapAsItsNetworkAndNamesWhoseItIs) {
     const auto folder = fresh_folder();
     const auto store = (folder / "town.gpkg").string();
-    const auto town = fs::path{MACADAM_SOURCE_DIR} / "tests/data/osm/harrisburg.osm.pbf";
+    const auto town = fs::path{source_folder()} / "tests/data/osm/harrisburg.osm.pbf";
     EXPECT_THAT(expect_done({"init", store, "--network", town.string()}).err,
                 HasSubstr("2475 ways"));
 

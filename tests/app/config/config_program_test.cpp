@@ -1,5 +1,6 @@
 // Defaults of options, verbosity and colour as users see them.
 
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/program/shell.hpp"
 
@@ -86,7 +87,7 @@ TEST_F(ConfigProgram, RunsWithoutAnyEnvironment) {
     const auto out =
         output_of(folder_,
                   fmt::format("env -i LSAN_OPTIONS=\"$LSAN_OPTIONS\" '{}' iri '{}' --format csv",
-                              MACADAM_PROGRAM,
+                              program_file(),
                               profile_));
     EXPECT_THAT(out, StartsWith("from_m,"));
     EXPECT_THAT(out, Not(HasSubstr("exit ")));

@@ -1,5 +1,6 @@
 // What `macadam export` leaves of a file that GDAL could not finish.
 
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <gmock/gmock.h>
@@ -26,8 +27,7 @@ std::size_t largest_in(const std::filesystem::path& folder) {
 TEST(ExportOnAFullDisk, LeavesNothingOfAnyKind) {
     const auto folder = fresh_folder();
     const auto store = (folder / "roads.gpkg").string();
-    const auto rav4 =
-        std::string{MACADAM_SOURCE_DIR} + "/sample_data/comma2k19/comma2k19_rav4.trip.csv";
+    const auto rav4 = testing::source_folder() + "/sample_data/comma2k19/comma2k19_rav4.trip.csv";
     ASSERT_EQ(run_macadam({"init", store, "--trace", rav4}).exit_status, 0);
     const auto out = folder / "out";
     for (const auto* name : {"roads.fgb", "roads.shp", "roads.kml", "roads.xlsx"}) {

@@ -2,6 +2,7 @@
 // Excel, workbooks, and units of the United States.
 
 #include "support/files/xlsx_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/road_program.hpp"
 #include "support/program/shell.hpp"
 
@@ -143,7 +144,7 @@ TEST_F(HandingOn, InUsUnitsConcernsCalibrationsAndMatchesToo) {
     // No car of this database shares 50 segments with others: there are rows, and exit status 1.
     const auto cars = run("calibrate", {"--dry-run", "--format", "csv", "--units", "us"});
     EXPECT_THAT(cars.out, StartsWith("vehicle,trips,shared_passes,gain,offset_in_per_mi,"));
-    const auto trip = fmt::format("{}/sample_data/gyor/gyor_q3_00.trip.csv", MACADAM_SOURCE_DIR);
+    const auto trip = fmt::format("{}/sample_data/gyor/gyor_q3_00.trip.csv", source_folder());
     const auto roads = (folder_ / "traced.gpkg").string();
     ASSERT_EQ(run_macadam({"init", roads, "--trace", trip}).exit_status, 0);
     const auto si = run_macadam({"match", trip, "--network", roads, "--format", "json"});

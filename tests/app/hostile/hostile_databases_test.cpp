@@ -5,11 +5,13 @@
 
 #include "storage/networks/network_file.hpp"
 #include "support/program/bounded_run.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/store_world.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
@@ -101,7 +103,7 @@ TEST_P(HostileDatabases, AreReadOrRefusedByEveryCommand) {
         fs::remove_all(work);
         fs::create_directories(work);
         fs::copy_file(good, work / "a.gpkg");
-        fs::copy_file(MACADAM_SOURCE_DIR "/tests/fuzz/seeds/trip_trace/receiver.csv",
+        fs::copy_file(source_folder() + "/tests/fuzz/seeds/trip_trace/receiver.csv",
                       work / "a.trip.csv");
         const auto done = spoil(work / "a.gpkg", GetParam().spoiling, number);
         for (const auto& words : commands) {

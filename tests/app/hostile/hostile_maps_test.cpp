@@ -2,6 +2,7 @@
 // server is asked, no file is opened that they name. strace watches.
 
 #include "support/files/hostile_maps.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/program/traced_program.hpp"
 #include "support/roads/store_world.hpp"
@@ -128,7 +129,7 @@ TEST_F(HostileMaps, AreNotFollowedByAnyCommandThatReadsFiles) {
         auto roads = new_store(store);
         import_trips(roads, 6);
     }
-    const std::string trip = MACADAM_SOURCE_DIR "/sample_data/gyor/gyor_q3_00.trip.csv";
+    const std::string trip = source_folder() + "/sample_data/gyor/gyor_q3_00.trip.csv";
     const auto map = [&](const char* name) { return (folder_ / "maps" / name).string(); };
     const auto out = (folder_ / "out").string();
     const std::vector<std::vector<std::string>> commands{
@@ -158,8 +159,8 @@ TEST_F(HostileMaps, AreNotFollowedByAnyCommandThatReadsFiles) {
         {"identify", trip, "--profile", map("aerial.tif")},
         {"simulate", "-o", out, "--recipe", map("aerial.tif"), "--network", map("roads.gpkg")}};
     for (const auto& words : commands) {
-        const auto run = run_traced(
-            MACADAM_PROGRAM, words, folder_, {fs::path{MACADAM_SOURCE_DIR} / "sample_data"});
+        const auto run =
+            run_traced(program_file(), words, folder_, {fs::path{source_folder()} / "sample_data"});
         EXPECT_THAT(run.exit_status, ::testing::AnyOf(1, 2)) << words[0] << ": " << run.said;
         EXPECT_THAT(run.breaches, IsEmpty()) << words[0] << ' ' << words.back();
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/store_world.hpp"
 
@@ -69,7 +70,7 @@ inline Place new_place() {
 }
 
 inline std::vector<std::string> words_of(const CommandCase& command, const Place& place) {
-    const std::string sample_data = MACADAM_SOURCE_DIR "/sample_data";
+    const std::string sample_data = source_folder() + "/sample_data";
     auto words = command.words;
     for (auto& word : words) {
         if (word == "STORE") {

@@ -1,6 +1,7 @@
 // Logs of other makers as users hand them to the program.
 
 #include "storage/trips/log/trip_writer.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -16,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const auto loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
+const auto loggers = fs::path{source_folder()} / "tests/data/loggers";
 
 /// A drive of 1,000 m as phyphox exports it from a phone that lies flat.
 fs::path phyphox_export(const fs::path& folder) {

@@ -1,6 +1,7 @@
 // Trips whose sensors and positions come in two files, from import to query.
 
 #include "storage/trips/trip_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/walked_trips.hpp"
 
@@ -20,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-const fs::path root{MACADAM_SOURCE_DIR};
+const fs::path root{source_folder()};
 const std::string drive = (root / "sample_data/gyor/gyor_q3_00.trip.csv").string();
 
 /// A recorded drive near Győr, and a database of its roads.

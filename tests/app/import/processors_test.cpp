@@ -1,5 +1,6 @@
 // One database on any processor: imports with the variants of libm that glibc chooses on others.
 
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +61,7 @@ TEST(Processors, GiveOneDigestForATripOnTheRoadsThatItTraces) {
     const auto folder = fresh_folder();
     for (const auto* const trip :
          {"comma2k19/comma2k19_rav4.trip.csv", "gyor/gyor_q3_00.trip.csv"}) {
-        const auto log = fmt::format("{}/sample_data/{}", MACADAM_SOURCE_DIR, trip);
+        const auto log = fmt::format("{}/sample_data/{}", source_folder(), trip);
         EXPECT_THAT(digests([&] {
                         return imported(folder, {"--trace", log}, log);
                     }),
@@ -74,7 +75,7 @@ TEST(Processors, GiveOneDigestForASimulatedFleet) {
     // Of thirty trips of 8 km one pass in thousands differed; one short trip shows that they can be
     // imported.
     const bool all = std::getenv("MACADAM_TEST_ALL") != nullptr;
-    const auto fleet = fmt::format("{}/sample_data/fleet", MACADAM_SOURCE_DIR);
+    const auto fleet = fmt::format("{}/sample_data/fleet", source_folder());
     auto recipe = (folder / "recipe.toml").string();
     write_file(recipe, "[trips]\ncount = 1\nlength_km = [2, 3]\n");
     if (all) {

@@ -1,3 +1,4 @@
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/program/shell.hpp"
 #include "support/roads/drive.hpp"
@@ -14,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const auto source = fs::path{MACADAM_SOURCE_DIR};
+const auto source = fs::path{source_folder()};
 
 /// A drive of 1,000 m as a logger of unknown make writes it.
 std::string foreign_log(const std::string& header) {

@@ -6,6 +6,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/trips/trip_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 /// The first rows of the recorded trip, with the right end: enough for everything to happen.
 std::string short_log() {
     constexpr int rows = 1500;
-    const auto whole = testing::read_file(std::string{MACADAM_SOURCE_DIR} +
+    const auto whole = testing::read_file(testing::source_folder() +
                                           "/sample_data/comma2k19/comma2k19_rav4.trip.csv");
     auto end = whole.find("\nt_s,") + 1;
     for (int i = 0; i <= rows; ++i) {

@@ -4,6 +4,7 @@
 #include "estimator/motion/make_odometer.hpp"
 #include "estimator/motion/odometer.hpp"
 #include "storage/trips/trip_reader.hpp"
+#include "support/program/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ constexpr double end_s = 59;
 
 TripLog recorded_drive() {
     const auto source =
-        std::filesystem::path{MACADAM_SOURCE_DIR} / "sample_data/comma2k19/comma2k19_rav4.trip.csv";
+        std::filesystem::path{source_folder()} / "sample_data/comma2k19/comma2k19_rav4.trip.csv";
     return read_trip(TripSource{source, {}}, needs_of_trace(), {});
 }
 

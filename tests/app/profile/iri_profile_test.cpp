@@ -5,6 +5,7 @@
 #include "app/profile/iri_analysis.hpp"
 #include "estimator/iri/iri.hpp"
 #include "storage/profiles/profile_reader.hpp"
+#include "support/program/places.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +25,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const fs::path data = fs::path{MACADAM_SOURCE_DIR} / "tests" / "data";
+const fs::path data = fs::path{source_folder()} / "tests" / "data";
 const std::string even = (data / "sorel" / "profile_1.txt").string();
 const std::string uneven = (data / "sorel" / "profile_2.txt").string();
 

@@ -4,6 +4,7 @@
 // they cancel in the mean and what remains is the method's.
 
 #include "app/simulate/scored_world.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -145,7 +146,7 @@ TEST(ImperfectCars, OfKnownKindsReadRoadsOfEveryRoughness) {
     const auto folder = fresh_folder();
     const auto at = [&](const std::string& name) { return (folder / name).string(); };
     write_file(at("recipe.toml"), recipe());
-    const std::string map = MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf";
+    const std::string map = source_folder() + "/sample_data/fleet/network.osm.pbf";
     ran({"simulate", "-o", at("fleet"), "--network", map, "--recipe", at("recipe.toml")});
     std::map<std::string, std::vector<std::string>> trips_of_kind;
     for (const auto& entry : fs::directory_iterator{at("fleet/trips")}) {

@@ -3,6 +3,7 @@
 
 #include "app/simulate/scored_world.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -137,7 +138,7 @@ TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
     const auto folder = fresh_folder();
     const auto at = [&](const char* name) { return (folder / name).string(); };
     write_file(at("recipe.toml"), recipe());
-    const std::string map = MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf";
+    const std::string map = source_folder() + "/sample_data/fleet/network.osm.pbf";
     ran({"simulate",
          "-o",
          at("fleet"),

@@ -1,6 +1,7 @@
 // A database of other people's cars, from `init --privacy crowd` to what is handed on.
 
 #include "storage/postgres/server_connection.hpp"
+#include "support/program/places.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
@@ -258,7 +259,7 @@ TEST_F(Crowd, IsNeverMadeOfTheRoadsNearTrips) {
     EXPECT_THAT(run({"init",
                      store_,
                      "--network",
-                     MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf",
+                     source_folder() + "/sample_data/fleet/network.osm.pbf",
                      "--around",
                      at("trips/0.trip.csv"),
                      "--privacy",

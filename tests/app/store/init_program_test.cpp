@@ -3,6 +3,7 @@
 #include "storage/networks/network_reader.hpp"
 #include "storage/store/reader/store_background.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string krems = MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf";
+const std::string krems = source_folder() + "/sample_data/fleet/network.osm.pbf";
 
 /// A track of 11 m a second between two positions.
 std::string gpx_between(const GeoPoint& from, const GeoPoint& to) {

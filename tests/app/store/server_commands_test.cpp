@@ -2,6 +2,7 @@
 
 #include "support/http/http_client.hpp"
 #include "support/program/piped_program.hpp"
+#include "support/program/places.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
 
@@ -46,7 +47,7 @@ protected:
     PostgresServer server_;
     std::string address_ = server_.new_database("roads");
     std::string file_ = (fresh_folder() / "roads.gpkg").string();
-    std::string trip_ = MACADAM_SOURCE_DIR "/sample_data/gyor/gyor_q3_00.trip.csv";
+    std::string trip_ = source_folder() + "/sample_data/gyor/gyor_q3_00.trip.csv";
 };
 
 TEST_F(ServerCommands, WriteWhatTheyWriteToAFile) {

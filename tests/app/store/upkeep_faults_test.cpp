@@ -6,6 +6,7 @@
 #include "storage/networks/osm_writer.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/edited_network.hpp"
 #include "support/roads/store_world.hpp"
@@ -46,8 +47,7 @@ struct World {
     fs::path store;
 };
 
-const std::string log_of_gyor =
-    std::string{MACADAM_SOURCE_DIR} + "/sample_data/gyor/gyor_q3_00.trip.csv";
+const std::string log_of_gyor = source_folder() + "/sample_data/gyor/gyor_q3_00.trip.csv";
 
 World country() {
     World made{fresh_folder(), {}, {}};

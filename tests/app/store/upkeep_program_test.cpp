@@ -2,6 +2,7 @@
 
 #include "storage/networks/network_file.hpp"
 #include "storage/store/road_store.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/store_world.hpp"
 
@@ -222,7 +223,7 @@ TEST_F(UpkeepProgram, TellsWhatWasDoneAndWhatItDidToANumber) {
 
 TEST_F(UpkeepProgram, ReprocessesNothingOfTripsThatAreNotThere) {
     const auto before = digest();
-    const auto log = std::string{MACADAM_SOURCE_DIR} + "/sample_data/gyor/gyor_q3_00.trip.csv";
+    const auto log = source_folder() + "/sample_data/gyor/gyor_q3_00.trip.csv";
     const auto done = run("reprocess", {log});
     EXPECT_EQ(done.exit_status, 1);
     EXPECT_THAT(done.out, HasSubstr("is not in the database: import it with 'macadam import'"));
@@ -233,7 +234,7 @@ TEST_F(UpkeepProgram, ReprocessesNothingOfTripsThatAreNotThere) {
 
 TEST(Maintenance, OfARecordedTripForgetsTakesBackAndReprocesses) {
     const auto folder = fresh_folder();
-    const auto log = std::string{MACADAM_SOURCE_DIR} + "/sample_data/gyor/gyor_q3_00.trip.csv";
+    const auto log = source_folder() + "/sample_data/gyor/gyor_q3_00.trip.csv";
     const auto store_by = [&](const std::string& name, const std::string& method) {
         const auto store = (folder / name).string();
         EXPECT_EQ(run_macadam({"init", store, "--trace", log}).exit_status, 0);

@@ -2,6 +2,7 @@
 
 #include "estimator/common/trip.hpp"
 #include "storage/trips/trip_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <gmock/gmock.h>
@@ -21,8 +22,9 @@ using testing::read_file;
 using testing::run_macadam;
 using testing::write_file;
 
-const std::string rav4 = MACADAM_SOURCE_DIR "/sample_data/comma2k19/comma2k19_rav4.trip.csv";
-const std::string rtk = MACADAM_SOURCE_DIR "/tests/data/rawlog/test_rtk_path.rawlog";
+const std::string rav4 =
+    testing::source_folder() + "/sample_data/comma2k19/comma2k19_rav4.trip.csv";
+const std::string rtk = testing::source_folder() + "/tests/data/rawlog/test_rtk_path.rawlog";
 
 const std::string tiny = "# macadam-trip 1\n# trip_id: tiny\n"
                          "t_s,acc_z_mps2,speed_mps\n0,9.8,\n0.01,9.9,12.5\nx,9.9,12.5\n"

@@ -1,5 +1,6 @@
 // What `match` prints, of logs and of GPX tracks.
 
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-const auto source = fs::path{MACADAM_SOURCE_DIR};
+const auto source = fs::path{source_folder()};
 const auto andorra = (source / "sample_data/networks/andorra.osm.pbf").string();
 const auto tour = (source / "tests/data/gpx/andorra_for_map_matching.gpx").string();
 

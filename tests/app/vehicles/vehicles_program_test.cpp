@@ -3,6 +3,7 @@
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "estimator/vehicle/vehicle.hpp"
 #include "storage/settings/vehicle_file.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <gmock/gmock.h>
@@ -80,7 +81,7 @@ TEST(VehiclesCommand, NeverReplacesARoadDatabaseOrTheCarItReads) {
     const auto store = (folder / "roads.gpkg").string();
     ASSERT_EQ(
         run_macadam(
-            {"init", store, "--network", MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf"})
+            {"init", store, "--network", source_folder() + "/sample_data/fleet/network.osm.pbf"})
             .exit_status,
         0);
     const auto refused = run_macadam({"vehicles", "--format", "csv", "-o", store});

@@ -1,6 +1,7 @@
 #include "drive_score.hpp"
 #include "off_network.hpp"
 #include "simulated_world.hpp"
+#include "support/program/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,10 @@ namespace macadam::bench {
 namespace {
 
 const DrivenNetwork& small_town() {
-    static const auto network = driven_network(
-        std::filesystem::path{MACADAM_SOURCE_DIR} / "sample_data/fleet/network.osm.pbf", 1, 3);
+    static const auto network = driven_network(std::filesystem::path{testing::source_folder()} /
+                                                   "sample_data/fleet/network.osm.pbf",
+                                               1,
+                                               3);
     return network;
 }
 

@@ -3,6 +3,7 @@
 
 #include "off_network.hpp"
 #include "simulated_world.hpp"
+#include "support/program/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +20,11 @@ const std::vector<DrivenNetwork>& world() {
         constexpr std::size_t drives = 4;
         std::vector<DrivenNetwork> networks;
         for (const char* const name : {"harrisburg", "krems", "monaco", "stockholm"}) {
-            networks.push_back(
-                driven_network(std::filesystem::path{MACADAM_SOURCE_DIR} / "sample_data/networks" /
-                                   (std::string{name} + ".osm.pbf"),
-                               drives,
-                               1));
+            networks.push_back(driven_network(std::filesystem::path{testing::source_folder()} /
+                                                  "sample_data/networks" /
+                                                  (std::string{name} + ".osm.pbf"),
+                                              drives,
+                                              1));
         }
         return networks;
     }();

@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/gl_library.hpp"
+#include "support/program/places.hpp"
 
 #include <GL/gl.h>
 #include <gmock/gmock.h>
@@ -30,7 +31,7 @@ std::string mesa() {
 }
 
 Image golden(const std::string& name) {
-    const auto file = std::filesystem::path{MACADAM_SOURCE_DIR} / "tests/data/golden" / name;
+    const auto file = std::filesystem::path{source_folder()} / "tests/data/golden" / name;
     png_image read{};
     read.version = PNG_IMAGE_VERSION;
     EXPECT_NE(png_image_begin_read_from_file(&read, (file.string() + ".png").c_str()), 0)

@@ -1,6 +1,7 @@
 #include "mapping/conflation/network_conflation.hpp"
 
 #include "storage/networks/network_reader.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/edited_network.hpp"
 
 #include <gtest/gtest.h>
@@ -22,8 +23,7 @@ constexpr const char* places[] = {
     "andorra", "baltimore", "harrisburg", "krems", "liechtenstein", "monaco", "stockholm"};
 
 std::vector<Way> extract(const std::string& name) {
-    return read_network(std::string{MACADAM_SOURCE_DIR} + "/sample_data/networks/" + name +
-                        ".osm.pbf");
+    return read_network(testing::source_folder() + "/sample_data/networks/" + name + ".osm.pbf");
 }
 
 std::vector<std::int64_t> ids_of(const EditedNetwork& network) {

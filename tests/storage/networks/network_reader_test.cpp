@@ -2,6 +2,7 @@
 
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,7 +23,7 @@ using ::testing::IsEmpty;
 
 namespace {
 
-const std::string harrisburg = MACADAM_SOURCE_DIR "/tests/data/osm/harrisburg.osm.pbf";
+const std::string harrisburg = source_folder() + "/tests/data/osm/harrisburg.osm.pbf";
 
 /// An OSM file of three nodes in a row and one way over them, with those tags.
 std::string osm_of(const std::string& tags) {

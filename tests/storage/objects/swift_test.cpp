@@ -7,6 +7,7 @@
 #include "storage/objects/object_store.hpp"
 #include "storage/objects/request_signature.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/chrono.h>
@@ -61,8 +62,10 @@ TEST(Swift, KeepsObjectsOfThoseWhoSignWithTheirKey) {
     const auto folder = fresh_folder();
     const auto end = [](std::FILE* pipe) { pclose(pipe); };
     const std::unique_ptr<std::FILE, decltype(end)> swift{
-        popen(fmt::format(
-                  "{}/tests/support/s3/swift.sh {} {}", MACADAM_SOURCE_DIR, folder.string(), port)
+        popen(fmt::format("{}/tests/support/s3/swift.sh {} {}",
+                          testing::source_folder(),
+                          folder.string(),
+                          port)
                   .c_str(),
               "w"),
         end};

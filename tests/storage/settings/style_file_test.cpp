@@ -1,6 +1,7 @@
 #include "storage/settings/style_file.hpp"
 
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <gmock/gmock.h>
 
@@ -185,7 +186,7 @@ TEST(StyleFile, RefusesAShippedTableBesideItsOwn) {
 
 TEST(StyleFile, OfTheSampleAgencyIsReadInFull) {
     const auto look =
-        read_style(std::filesystem::path{MACADAM_SOURCE_DIR} / "sample_data/styles/agency.toml");
+        read_style(std::filesystem::path{source_folder()} / "sample_data/styles/agency.toml");
     ASSERT_EQ(look.own_table->table().classes.size(), 4U);
     EXPECT_EQ(look.own_table->table().classes[2].name, "mäßig");
     EXPECT_EQ(look.own_ramp.size(), 4U);

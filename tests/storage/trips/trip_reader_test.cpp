@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <gmock/gmock.h>
 
@@ -396,7 +397,7 @@ TEST(OpenTrip, HasNoHashIfItCannotBeReadToItsEnd) {
 }
 
 TEST(TripReader, AccountsForEveryRowOfTwoRealTrips) {
-    const std::string samples = MACADAM_SOURCE_DIR "/sample_data/";
+    const std::string samples = source_folder() + "/sample_data/";
     const auto rav4 =
         read_trip({samples + "comma2k19/comma2k19_rav4.trip.csv", ""}, needs_of_import());
     const auto gyor = read_trip({samples + "gyor/gyor_q3_00.trip.csv", ""}, needs_of_import());

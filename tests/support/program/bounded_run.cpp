@@ -1,6 +1,7 @@
 #include "bounded_run.hpp"
 
 #include "program.hpp"
+#include "support/program/places.hpp"
 
 #include <csignal>
 #include <stdexcept>
@@ -16,7 +17,7 @@ namespace macadam::testing {
 namespace {
 
 pid_t spawn(const std::filesystem::path& folder, const std::vector<std::string>& words) {
-    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)};
+    std::vector<char*> argv{const_cast<char*>(program_file().c_str())};
     for (const auto& word : words) {
         argv.push_back(const_cast<char*>(word.c_str()));
     }
@@ -29,10 +30,11 @@ pid_t spawn(const std::filesystem::path& folder, const std::vector<std::string>&
     posix_spawn_file_actions_addopen(
         &actions, STDERR_FILENO, "stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
     pid_t child = -1;
-    const int error = posix_spawn(&child, MACADAM_PROGRAM, &actions, nullptr, argv.data(), environ);
+    const int error =
+        posix_spawn(&child, program_file().c_str(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
-        throw std::runtime_error{"cannot run " MACADAM_PROGRAM};
+        throw std::runtime_error{"cannot run " + program_file()};
     }
     return child;
 }

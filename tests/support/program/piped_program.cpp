@@ -1,6 +1,7 @@
 #include "piped_program.hpp"
 
 #include "program.hpp"
+#include "support/program/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,8 @@ PipedProgram::PipedProgram(const std::vector<std::string>& words)
     close(mkostemp(err_file_.data(), O_CLOEXEC));
     const Ends in = new_pipe();
     const Ends out = new_pipe();
-    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)}; // the child must take no memory
+    std::vector<char*> argv{
+        const_cast<char*>(program_file().c_str())}; // the child must take no memory
     for (const auto& word : words) {
         argv.push_back(const_cast<char*>(word.c_str()));
     }
@@ -58,7 +60,7 @@ PipedProgram::PipedProgram(const std::vector<std::string>& words)
         dup2(open(err_file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600),
              STDERR_FILENO);
         std::signal(SIGPIPE, SIG_DFL);
-        execv(MACADAM_PROGRAM, argv.data());
+        execv(program_file().c_str(), argv.data());
         _exit(127);
     }
     close(in.reading);

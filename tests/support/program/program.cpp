@@ -1,4 +1,5 @@
 #include "program.hpp"
+#include "support/program/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,7 @@ fs::path own_file(const std::string& kind) {
 
 /// The words of a command line as the system takes them; they point into `words`.
 std::vector<char*> argv_of(const std::vector<std::string>& words) {
-    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)};
+    std::vector<char*> argv{const_cast<char*>(program_file().c_str())};
     for (const auto& word : words) {
         argv.push_back(const_cast<char*>(word.c_str()));
     }
@@ -57,7 +58,7 @@ std::vector<char*> argv_of(const std::vector<std::string>& words) {
         const rlimit both{limit.most, limit.most};
         setrlimit(static_cast<__rlimit_resource_t>(limit.resource), &both);
     }
-    execv(MACADAM_PROGRAM, argv.data());
+    execv(program_file().c_str(), argv.data());
     _exit(127);
 }
 
@@ -76,7 +77,7 @@ Run run(const std::vector<std::string>& words,
     }
     int status = 0;
     if (child < 0 || waitpid(child, &status, 0) != child) {
-        throw std::runtime_error{"cannot run " MACADAM_PROGRAM};
+        throw std::runtime_error{"cannot run " + program_file()};
     }
     Run result{
         WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "", read_file(err)};

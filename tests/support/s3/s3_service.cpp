@@ -1,4 +1,5 @@
 #include "support/s3/s3_service.hpp"
+#include "support/program/places.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ S3Service::S3Service(const std::filesystem::path& folder, const std::vector<std:
         throw std::runtime_error{"no pipe for the service"};
     }
     std::vector<std::string> words{
-        MACADAM_NODE, MACADAM_SOURCE_DIR "/tests/support/s3/server.mjs", folder.string()};
+        MACADAM_NODE, source_folder() + "/tests/support/s3/server.mjs", folder.string()};
     words.insert(words.end(), options.begin(), options.end());
     std::vector<char*> argv;
     for (auto& word : words) {

@@ -5,6 +5,7 @@
 #include "estimator/common/error.hpp"
 #include "render/scene/scene.hpp"
 #include "support/files/sample_photo.hpp"
+#include "support/program/places.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/sample_report.hpp"
 
@@ -376,7 +377,7 @@ TEST_F(ReportPdf, IsTaggedForPeopleWhoHearItAndWastesNoPaper) {
     auto report = whole_report();
     report.wording.language = language("hu");
     const auto check = fmt::format("/usr/bin/python3 {}/tests/render/report/document/pdf_access.py",
-                                   MACADAM_SOURCE_DIR);
+                                   testing::source_folder());
     EXPECT_EQ(by(check, report), "");
     EXPECT_EQ(by(check, report, {.paper = us_letter}), "");
 }

@@ -3,6 +3,7 @@
 #include "render/report/words/plural_rule.hpp"
 #include "render/report/words/po_file.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -27,7 +28,7 @@ using ::testing::SizeIs;
 using ::testing::UnorderedElementsAreArray;
 
 std::vector<PoEntry> shipped(const std::string& name) {
-    std::ifstream stream{fs::path{MACADAM_SOURCE_DIR} / "render/report/words" / name};
+    std::ifstream stream{fs::path{testing::source_folder()} / "render/report/words" / name};
     return parse_po(std::string{std::istreambuf_iterator<char>{stream}, {}}, name);
 }
 

@@ -8,6 +8,7 @@
 #include "estimator/common/error.hpp"
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -415,7 +416,7 @@ TEST(LogDetection, MarksWhatItDidNotFind) {
 }
 
 TEST(LogDetection, RecognisesTheLoggersOfBuiltInMappings) {
-    const auto loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
+    const auto loggers = fs::path{source_folder()} / "tests/data/loggers";
     EXPECT_EQ(detect_log(loggers / "racechrono.csv")->built_in, "racechrono");
     EXPECT_EQ(detect_log(loggers / "trackaddict.csv")->built_in, "trackaddict");
     const TripSource source{.file = loggers / "trackaddict.csv", .member = {}};

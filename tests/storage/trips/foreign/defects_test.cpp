@@ -7,6 +7,7 @@
 
 #include "estimator/common/error.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +28,7 @@ namespace {
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 
 std::filesystem::path defect(const std::string& name) {
-    return std::filesystem::path{MACADAM_SOURCE_DIR} / "tests/data/defects" / name;
+    return std::filesystem::path{source_folder()} / "tests/data/defects" / name;
 }
 
 TripLog read(const std::string& name) {

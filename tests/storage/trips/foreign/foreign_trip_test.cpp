@@ -5,6 +5,7 @@
 #include "storage/trips/log/longest_increasing_subsequence.hpp"
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
-const fs::path loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
+const fs::path loggers = fs::path{source_folder()} / "tests/data/loggers";
 
 const std::string acc_csv = "\"Time (s)\",\"X (m/s^2)\",\"Y (m/s^2)\",\"Z (m/s^2)\"\n"
                             "0.0E0,0.1,0.2,9.8\n1.0E-2,0.1,0.2,9.9\n";

@@ -4,6 +4,7 @@
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <gmock/gmock.h>
 
@@ -117,7 +118,7 @@ TEST(TripWriter, GivesBackTheSamplesToThePrintedDigits) {
 }
 
 TEST(TripWriter, GivesBackTwoRecordedTrips) {
-    const std::string samples = MACADAM_SOURCE_DIR "/sample_data/";
+    const std::string samples = source_folder() + "/sample_data/";
     for (const auto* const name :
          {"comma2k19/comma2k19_rav4.trip.csv", "gyor/gyor_q3_00.trip.csv"}) {
         SCOPED_TRACE(name);

@@ -8,6 +8,7 @@
 #include "storage/trips/trip_reader.hpp"
 
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 
 #include <gmock/gmock.h>
 
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const auto zoo = fs::path{MACADAM_SOURCE_DIR} / "tests/data/gpx";
+const auto zoo = fs::path{source_folder()} / "tests/data/gpx";
 
 TripLog tour(const std::string& name) {
     return read_trip({.file = zoo / (name + ".gpx"), .member = {}}, needs_of_match());
@@ -141,8 +142,8 @@ INSTANTIATE_TEST_SUITE_P(Zoo, GpxTour, ::testing::ValuesIn(tours), [](const auto
 
 TEST(GpxZoo, FollowsTheStreetsOfAndorraWithoutADetour) {
     const auto trip = tour("andorra_for_map_matching");
-    const auto roads = build_network(read_network(
-        fs::path{MACADAM_SOURCE_DIR} / "sample_data/networks/andorra.osm.pbf", {}, {}));
+    const auto roads = build_network(
+        read_network(fs::path{source_folder()} / "sample_data/networks/andorra.osm.pbf", {}, {}));
     const auto trace = matched(trip, roads);
     EXPECT_EQ(holes_in(trace), 0U);
     // Drawn by hand along the streets.

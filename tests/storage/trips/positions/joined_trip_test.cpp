@@ -3,6 +3,7 @@
 #include "estimator/clocks/clock_offset.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
-const fs::path root{MACADAM_SOURCE_DIR};
+const fs::path root{source_folder()};
 
 TripLog gyor() {
     return read_trip({.file = root / "sample_data/gyor/gyor_q3_00.trip.csv", .member = {}},

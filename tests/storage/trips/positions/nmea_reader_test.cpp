@@ -2,6 +2,7 @@
 
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <fmt/format.h>
@@ -125,7 +126,7 @@ TEST(Nmea, RefusesAFileWithoutAFixAndOneOfWhichMoreIsNeeded) {
 }
 
 TEST(Nmea, ReadsWhatGpsBabelWritesOfARealDrive) {
-    const auto root = fs::path{MACADAM_SOURCE_DIR};
+    const auto root = fs::path{source_folder()};
     const auto trip = read_trip({.file = root / "tests/data/positions/gyor.nmea", .member = {}},
                                 needs_of_match());
     const auto origin = read_trip(

@@ -8,6 +8,7 @@
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <gmock/gmock.h>
@@ -41,7 +42,7 @@ namespace {
 
 constexpr TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 constexpr double t0_s = 1533226488;
-const std::string rtk_file = MACADAM_SOURCE_DIR "/tests/data/rawlog/test_rtk_path.rawlog";
+const std::string rtk_file = source_folder() + "/tests/data/rawlog/test_rtk_path.rawlog";
 
 /// Bytes in memory as a file would give them, a few at a time.
 class Memory final : public ByteStream {
@@ -240,7 +241,7 @@ TEST(Rawlog, GivesBackATripAsItWas) {
 }
 
 TEST(Rawlog, GivesBackTwoRecordedTrips) {
-    const std::string samples = MACADAM_SOURCE_DIR "/sample_data/";
+    const std::string samples = source_folder() + "/sample_data/";
     for (const auto* const name :
          {"comma2k19/comma2k19_rav4.trip.csv", "gyor/gyor_q3_00.trip.csv"}) {
         SCOPED_TRACE(name);
@@ -420,7 +421,7 @@ TEST(Rawlog, AsksForTheSensorsThatAreNeeded) {
 
 TEST(Rawlog, ReadsFixesBesideWhatReceiversOfTopconSaid) {
     // MRPT 2.5 would write that into memory it has freed.
-    const std::string file = MACADAM_SOURCE_DIR "/tests/fuzz/findings/rawlog/topcon.rawlog";
+    const std::string file = source_folder() + "/tests/fuzz/findings/rawlog/topcon.rawlog";
     const auto trip = read_trip({file, ""}, everything);
     ASSERT_THAT(trip.fixes, SizeIs(5)); // of versions 5 to 9
     EXPECT_NEAR(trip.fixes.back().at.lat_deg, 48.0009, 1e-9);

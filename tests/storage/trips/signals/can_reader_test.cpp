@@ -6,6 +6,7 @@
 #include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
-const fs::path root{MACADAM_SOURCE_DIR};
+const fs::path root{source_folder()};
 const fs::path logs = root / "tests/data/can";
 
 const std::string channels = "[channels]\n"

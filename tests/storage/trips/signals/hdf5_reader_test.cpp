@@ -3,6 +3,7 @@
 #include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
-const fs::path root{MACADAM_SOURCE_DIR};
+const fs::path root{source_folder()};
 const fs::path folder = root / "tests/data/hdf5";
 
 const std::string head = "[hdf5]\ntimes = \"/imu/time\"\n"

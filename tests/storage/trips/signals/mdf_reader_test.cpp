@@ -3,6 +3,7 @@
 #include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
 #include "support/roads/walked_trips.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
-const fs::path root{MACADAM_SOURCE_DIR};
+const fs::path root{source_folder()};
 const fs::path drive = root / "tests/data/mdf/drive.mf4";
 
 const std::string channels = "acc_x_mps2 = {signal = \"AccX\"}\n"
