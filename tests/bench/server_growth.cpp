@@ -21,7 +21,9 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <random>
 #include <stop_token>
 #include <string>
@@ -159,10 +161,10 @@ private:
         const auto cost = cost_of(monitor_, [&] {
             std::stop_source enough;
             const std::jthread timer{[&enough](const std::stop_token& fused_all) {
-                for (auto left = fused_for; left.count() > 0 && !fused_all.stop_requested();
-                     --left) {
-                    std::this_thread::sleep_for(std::chrono::seconds{1});
-                }
+                std::mutex mutex;
+                std::unique_lock lock{mutex};
+                std::condition_variable_any time;
+                time.wait_for(lock, fused_all, fused_for, [] { return false; });
                 enough.request_stop();
             }};
             open_.front().trips->refresh({.report = {}, .stop = enough.get_token()}, record);
