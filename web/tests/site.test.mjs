@@ -541,7 +541,7 @@ describe('the page', { timeout: 1000_000 }, () => {
     });
     release();
     await opened.page.waitForSelector('#map[data-ready]');
-    assert.equal(await opened.page.locator('img.first-picture').count(), 0);
+    await opened.page.waitForSelector('img.first-picture', { state: 'detached' });
     // The map tells its view when it has moved: there and back.
     await opened.page.locator('#map canvas').focus();
     await opened.page.keyboard.press('=');

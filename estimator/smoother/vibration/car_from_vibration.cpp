@@ -37,11 +37,10 @@ constexpr double usual_hop_sd = 0.25;
 constexpr double known_hop_sd = 0.05;
 constexpr double damping_sd = 0.4;
 
-// In 14 long simulated trips of exact cars the logarithm of the damping that fits best was within
-// this of the true one. The fit's own sd is doubled for cars that are not linear (`trust` in
-// vibration_fit.cpp), of which in 32 trips of 1.5 to 3 km this part was seen.
+// In 14 simulated trips of exact cars the logarithm of the damping that fits best was within this
+// of the true one. The fit's own sd, tempered for cars that are not linear, counts by this part.
 constexpr double damping_error_sd = 0.06;
-constexpr double damping_fit_error = 0.7;
+constexpr double damping_fit_error = 0.3;
 constexpr double least_shown = 0.25; // over the prior's information
 
 /// In simulated cars the hop that fits best is this far from the true one.
