@@ -132,6 +132,7 @@ ServerConnection::ServerConnection(std::string address)
     // ones.
     run("SET search_path = pg_catalog");
     run("SET bytea_output = hex; SET DateStyle = ISO; SET TimeZone = UTC");
+    run("SET jit = off"); // 0.4 s for statements of 10 ms
 }
 
 bool ServerConnection::is_superuser() const {

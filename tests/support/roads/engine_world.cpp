@@ -44,12 +44,23 @@ StoreReader EngineDatabase::read(Audience audience) const {
                    : StoreReader::open(name_, {}, audience);
 }
 
-std::vector<std::string> EngineDatabase::scans_of(const std::string& names) const {
+ServerConnection EngineDatabase::boss_alone() const {
     ServerConnection boss{server_.value().address("roads")};
     while (boss.number("SELECT count(*) FROM pg_stat_activity WHERE backend_type = 'client"
                        " backend' AND pid <> pg_backend_pid()") > 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds{10}); // the time limit ends it
     }
+    return boss;
+}
+
+std::int64_t EngineDatabase::rows_read_by_index_of(const std::string& names) const {
+    return boss_alone().number("SELECT sum(idx_tup_read)::bigint FROM pg_stat_user_indexes WHERE"
+                               " schemaname = 'macadam' AND relname ~ '" +
+                               names + "'");
+}
+
+std::vector<std::string> EngineDatabase::scans_of(const std::string& names) const {
+    auto boss = boss_alone();
     std::vector<std::string> scans;
     for (const auto& row : boss.rows("SELECT relname || ' ' || seq_scan FROM pg_stat_user_tables"
                                      " WHERE schemaname = 'macadam' AND relname ~ $1 ORDER BY 1",

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "storage/postgres/server_connection.hpp"
 #include "storage/store/import_store.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/program/postgres_server.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -41,6 +43,9 @@ public:
     /// \param names  regular expression
     std::vector<std::string> scans_of(const std::string& names) const;
 
+    /// Tells how many rows of such tables indexes led to, in the same way.
+    std::int64_t rows_read_by_index_of(const std::string& names) const;
+
     /// Where its key is.
     std::filesystem::path key_file() const;
 
@@ -48,6 +53,9 @@ public:
     PostgresServer& server() { return *server_; }
 
 private:
+    /// Waits for all other connections to have ended.
+    ServerConnection boss_alone() const;
+
     std::optional<PostgresServer> server_;
     std::string name_; ///< of a file, or an address
 };

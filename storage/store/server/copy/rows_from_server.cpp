@@ -53,9 +53,25 @@ std::string wanted(std::span<const ServerChunk> chunks) {
                        array_of(rows));
 }
 
-constexpr std::string_view in_segments =
-    " JOIN macadam.segment ON segment.cell = wanted.cell AND segment.fid >= wanted.chunk"
-    " AND segment.fid < wanted.chunk + {0} AND segment.chunk = wanted.chunk";
+/// Joins rows of a table to each of the rows before, whatever the planner expects of their number:
+/// where new tables have no statistics it would rather read all of them (OFFSET 0 keeps it out).
+std::string
+join_each(std::string_view table, std::string_view alias, const std::string& condition) {
+    return fmt::format(" CROSS JOIN LATERAL (SELECT * FROM macadam.{0} AS {1} WHERE {2} OFFSET 0)"
+                       " AS {1}",
+                       table,
+                       alias,
+                       condition);
+}
+
+std::string join_segments(std::uint32_t chunk_size) {
+    return join_each("segment",
+                     "segment",
+                     fmt::format("segment.cell = wanted.cell AND segment.fid >= wanted.chunk AND"
+                                 " segment.fid < wanted.chunk + {} AND segment.chunk ="
+                                 " wanted.chunk",
+                                 chunk_size));
+}
 
 std::vector<std::int64_t> numbers_in(Database& file, const char* sql) {
     std::vector<std::int64_t> numbers;
@@ -92,36 +108,42 @@ std::string RowsFromServer::setting(const char* key) {
 /// Source of rows: a table, or its rows of some chunks. Segments of a chunk have consecutive rows.
 std::string RowsFromServer::from(const char* table, const Chunks& chunks) const {
     const std::string_view name{table};
-    std::string source = chunks ? wanted(*chunks) : fmt::format("macadam.{}", name);
-    if (name == "segment_state") {
-        source = chunks ? source + fmt::format(in_segments, chunk_size_) : "macadam.segment";
-        return source + " JOIN macadam.segment_state AS state ON state.cell = segment.cell"
-                        " AND state.fid = segment.fid";
-    }
     if (!chunks) {
-        return source;
+        return name == "segment_state"
+                   ? "macadam.segment JOIN macadam.segment_state AS state ON state.cell ="
+                     " segment.cell AND state.fid = segment.fid"
+                   : fmt::format("macadam.{}", name);
     }
+    const auto source = wanted(*chunks);
     if (name == "segment") {
-        return source + fmt::format(in_segments, chunk_size_);
+        return source + join_segments(chunk_size_);
+    }
+    if (name == "segment_state") {
+        return source + join_segments(chunk_size_) +
+               join_each(name, "state", "state.cell = segment.cell AND state.fid = segment.fid");
     }
     if (name == "drive") {
-        return source + " JOIN macadam.drive ON drive.cell = wanted.cell"
-                        " AND drive.chunk = wanted.chunk";
+        return source +
+               join_each(name, name, "drive.cell = wanted.cell AND drive.chunk = wanted.chunk");
     }
     if (name == "chunk_state") {
-        return source + " JOIN macadam.chunk_state ON chunk_state.chunk = wanted.chunk";
+        return source + join_each(name, name, "chunk_state.chunk = wanted.chunk");
     }
     if (name.starts_with("published_")) {
-        return source + fmt::format(in_segments, chunk_size_) +
-               fmt::format(" JOIN macadam.{0} ON {0}.{1} = segment.fid",
-                           name,
-                           name == "published_state" ? "fid" : "segment");
+        return source + join_segments(chunk_size_) +
+               join_each(name,
+                         name,
+                         fmt::format("{}.{} = segment.fid",
+                                     name,
+                                     name == "published_state" ? "fid" : "segment"));
     }
     // A chunk at the end of a way is shorter: rows of its neighbour come along.
-    return source + fmt::format(" JOIN macadam.{0} ON {0}.segment >= wanted.chunk"
-                                " AND {0}.segment < wanted.chunk + {1}",
-                                name,
-                                chunk_size_);
+    return source + join_each(name,
+                              name,
+                              fmt::format("{0}.segment >= wanted.chunk AND {0}.segment <"
+                                          " wanted.chunk + {1}",
+                                          name,
+                                          chunk_size_));
 }
 
 void RowsFromServer::copy_meta() {

@@ -277,6 +277,34 @@ TEST_F(ServerReaders, LeadANameToTheCopy) {
     EXPECT_EQ(file.file(), folder_ / "roads.gpkg");
 }
 
+// Of a country the planner, which knows little of a table that grows, read every segment.
+TEST_F(ServerReaders, OfAFewChunksReadTheirRowsAloneWhateverThePlannerExpects) {
+    import_rich_trips(*database_.import().trips, 2);
+    std::vector<ServerChunk> chunks;
+    {
+        ServerConnection reader{database_.name()};
+        SegmentFilter one;
+        one.key = SegmentKey{1, true, 0};
+        chunks = chunks_for(reader, one);
+        reader.run("ALTER DATABASE roads SET enable_nestloop = off");
+        reader.run("ALTER DATABASE roads SET enable_seqscan = off"); // tables are small here
+    }
+    ASSERT_EQ(chunks.size(), 1U);
+    const std::string states = "^segment_state_[0-9]+$";
+    const auto before = database_.rows_read_by_index_of(states);
+    std::size_t segments = 0;
+    {
+        ServerConnection reader{database_.name()};
+        ServerTransaction one_moment{reader, true};
+        const StoreReader part{
+            open_server_part(reader, chunks, {.passes = false}, Audience::operator_, {}, {})};
+        part.visit({}, [&](const SegmentRecord&) { ++segments; });
+    }
+    ASSERT_GT(segments, 0U);
+    EXPECT_EQ(database_.rows_read_by_index_of(states) - before,
+              static_cast<std::int64_t>(segments));
+}
+
 TEST_F(ServerReaders, FindPlacesByIndexes) {
     const std::string tables = "^(segment|drive|segment_state)_\\d+$|^(trip|vehicle|way|event"
                                "|event_search|chunk_state|calibration|calibration_period)$";
