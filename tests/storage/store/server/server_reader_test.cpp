@@ -281,18 +281,19 @@ TEST_F(ServerReaders, LeadANameToTheCopy) {
 TEST_F(ServerReaders, OfAFewChunksReadTheirRowsAloneWhateverThePlannerExpects) {
     import_rich_trips(*database_.import().trips, 2);
     std::vector<ServerChunk> chunks;
+    std::int64_t all_states = 0;
     {
         ServerConnection reader{database_.name()};
-        SegmentFilter one;
-        one.key = SegmentKey{1, true, 0};
-        chunks = chunks_for(reader, one);
+        chunks = chunks_for(reader, {});
+        all_states = reader.number("SELECT count(*) FROM macadam.segment_state");
         reader.run("ALTER DATABASE roads SET enable_nestloop = off");
         reader.run("ALTER DATABASE roads SET enable_seqscan = off"); // tables are small here
     }
-    ASSERT_EQ(chunks.size(), 1U);
+    ASSERT_GT(chunks.size(), 1U);
+    chunks.resize(1);
     const std::string states = "^segment_state_[0-9]+$";
     const auto before = database_.rows_read_by_index_of(states);
-    std::size_t segments = 0;
+    std::int64_t segments = 0;
     {
         ServerConnection reader{database_.name()};
         ServerTransaction one_moment{reader, true};
@@ -300,9 +301,9 @@ TEST_F(ServerReaders, OfAFewChunksReadTheirRowsAloneWhateverThePlannerExpects) {
             open_server_part(reader, chunks, {.passes = false}, Audience::operator_, {}, {})};
         part.visit({}, [&](const SegmentRecord&) { ++segments; });
     }
-    ASSERT_GT(segments, 0U);
-    EXPECT_EQ(database_.rows_read_by_index_of(states) - before,
-              static_cast<std::int64_t>(segments));
+    ASSERT_GT(segments, 0);
+    ASSERT_LT(segments, all_states);
+    EXPECT_EQ(database_.rows_read_by_index_of(states) - before, segments);
 }
 
 TEST_F(ServerReaders, FindPlacesByIndexes) {
