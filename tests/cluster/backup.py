@@ -48,7 +48,9 @@ class Backup:
         shutil.rmtree(data, ignore_errors=True)
         data.mkdir(mode=0o700)
         node.pgbackrest(f"--pg1-path={data}", "--type=time", f"--target={moment}", "--target-action=promote", "restore")
-        settings = {"port": RESTORED_PORT, "listen_addresses": node.address, "unix_socket_directories": "",
+        # Patroni's settings, which the backup has, name the files of the server that it was taken of.
+        settings = {"hba_file": data / "pg_hba.conf", "ident_file": data / "pg_ident.conf",
+                    "port": RESTORED_PORT, "listen_addresses": node.address, "unix_socket_directories": "",
                     "archive_mode": "off", "synchronous_standby_names": "", "primary_conninfo": "", "primary_slot_name": ""}
         with (self.cluster.folder / "restored.log").open("wb") as log:
             self.process = subprocess.Popen(

@@ -55,6 +55,7 @@ class Nemesis:
             except psycopg2.Error:
                 following = []  # there is no primary that could tell
             if following:
+                self.began = time.monotonic()  # until now the fault before went on
                 names = waited_for if synchronous and waited_for else sorted(following)
                 return self.cluster.nodes[NAMES.index(self.random.choice(names))]
             time.sleep(0.5)

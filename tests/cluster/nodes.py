@@ -165,7 +165,7 @@ class Node:
                             "max_connections": 60,
                             "wal_level": "replica",
                             "archive_mode": True,
-                            "archive_timeout": "5min",
+                            "archive_timeout": "60s",
                             "wal_log_hints": True,
                             "max_wal_size": "128MB",
                             "wal_keep_size": f"{WAL_KEPT_MIB}MB",
@@ -301,8 +301,7 @@ class Cluster:
     def address(self, database, role="macadam"):
         """libpq finds the primary among the three by itself."""
         hosts = ",".join(f"{node.address}:{DATABASE_PORT}" for node in self.nodes)
-        return (f"postgresql://{role}@{hosts}/{database}?target_session_attrs=read-write"
-                "&connect_timeout=3&tcp_user_timeout=5000")
+        return f"postgresql://{role}@{hosts}/{database}?target_session_attrs=read-write&connect_timeout=3"
 
     def connect(self, database, role="macadam", node=None, **options):
         """Connects to the primary, or to one server."""
