@@ -110,10 +110,19 @@ void ServerConnection::Finish::operator()(pg_conn* connection) const {
 ServerConnection::ServerConnection(std::string address)
     : address_{std::move(address)}, warnings_{std::make_unique<std::vector<std::string>>()} {
     expect_address_without_secrets(address_);
-    // Later keywords win; those that the address may also hold come before it.
-    const std::array<const char*, 5> keywords{
-        "connect_timeout", "dbname", "fallback_application_name", "client_encoding", nullptr};
-    const std::array<const char*, 5> values{"10", address_.c_str(), "macadam", "UTF8", nullptr};
+    // Later keywords win; those that the address may also hold come before it. A server that is
+    // gone without a word is given up after 20 s.
+    const std::array<const char*, 9> keywords{"connect_timeout",
+                                              "tcp_user_timeout",
+                                              "keepalives_idle",
+                                              "keepalives_interval",
+                                              "keepalives_count",
+                                              "dbname",
+                                              "fallback_application_name",
+                                              "client_encoding",
+                                              nullptr};
+    const std::array<const char*, 9> values{
+        "10", "20000", "10", "5", "2", address_.c_str(), "macadam", "UTF8", nullptr};
     constexpr int expand_dbname = 1;
     connection_.reset(PQconnectdbParams(keywords.data(), values.data(), expand_dbname));
     if (PQstatus(connection_.get()) != CONNECTION_OK) {

@@ -7,6 +7,7 @@
 // The database is empty, with PostGIS. SIDE is that of the town, in crossings; 705 are ten million
 // segments, for which the machine needs 60 GB of disk and an hour.
 
+#include "app/progress/progress_display.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/store/road_store.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
@@ -31,6 +32,8 @@
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include <unistd.h>
 
 namespace macadam::bench {
 namespace {
@@ -88,8 +91,11 @@ public:
             "| bytes a pass | fused: passes/s | a CPU second | 1 km² read, median | its "
             "segments |\n|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
         const std::size_t last = keys_.size() * last_passes_a_segment / passes_a_trip;
+        const auto progress =
+            progress_display("storing trips", {.name = "trip"}, isatty(STDERR_FILENO) != 0);
+        const Progress shown{[&](std::size_t done, std::size_t) { progress(done, last); }, {}};
         for (int left = doublings; left >= 0; --left) {
-            const auto stored = store_until(static_cast<int>(last >> left));
+            const auto stored = store_until(static_cast<int>(last >> left), shown);
             const double pass_bytes = bytes_of("drive") / passes();
             const auto fused = fuse();
             const auto read = read_boxes();
@@ -123,7 +129,7 @@ private:
                 .at(0));
     }
 
-    Stored store_until(int trips) {
+    Stored store_until(int trips, const Progress& progress) {
         const int first = trips_;
         std::atomic<int> next{first};
         std::vector<std::vector<double>> took_ms(writers);
@@ -139,6 +145,9 @@ private:
                         const double begin_s = wall_s();
                         open_[writer].trips->add_trips({&one, 1});
                         took_ms[writer].push_back(1e3 * (wall_s() - begin_s));
+                        if (writer == 0) {
+                            progress(static_cast<std::size_t>(number), 0);
+                        }
                     }
                 });
             }

@@ -1,5 +1,6 @@
 // What the page costs for a large network, beside a plain page with one GeoJSON: node bench.mjs SITE_FOLDER ROADS.geojson
-// Prints rows of a table. Chromium draws by software here; answers are gzipped, as hosts do.
+// Prints rows of a table. Chromium draws maps by software here, and puts pages together without a graphics card as it does
+// by itself (its --disable-gpu), or by the same software as maps; answers are gzipped, as hosts do.
 import { chromium } from 'playwright-core';
 import { copyFileSync, mkdirSync, readFileSync, symlinkSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -8,7 +9,8 @@ import { serve } from './static_server.mjs';
 const [site, geojson] = process.argv.slice(2).map((each) => resolve(each));
 const waits = 120_000; // ms
 const slowed = 4; // times
-const args = ['--no-sandbox', '--disable-gpu-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+const withoutCard = ['--disable-gpu'];
+const allByAngle = ['--use-gl=angle', '--use-angle=swiftshader'];
 
 // The peer: the same library, the same lines and colours, all of it as one file.
 function plainPage(folder) {
@@ -44,7 +46,8 @@ async function memory(browser) {
 
 const browsers = []; // open ones, also after a failure
 
-async function open(server, hash = '') {
+async function open(server, drawing, hash = '') {
+  const args = ['--no-sandbox', '--disable-gpu-sandbox', '--enable-unsafe-swiftshader', ...drawing];
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args, timeout: 60_000 });
   browsers.push(browser);
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
@@ -93,7 +96,7 @@ async function panning(browser, page) {
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
 
-async function measured(name, folder, hashes, turns) {
+async function measured(name, folder, drawing, hashes, turns) {
   const server = await serve(folder, { gzip: true });
   const starts = [];
   const frames = [];
@@ -101,12 +104,12 @@ async function measured(name, folder, hashes, turns) {
   let failed = '';
   try {
     for (let i = 0; i < turns; ++i) {
-      const { browser, ms, pictureMs, bytes } = await open(server);
+      const { browser, ms, pictureMs, bytes } = await open(server, drawing);
       starts.push({ ms, pictureMs, mb: bytes / 1e6 });
       await browser.close();
     }
     for (const hash of hashes) {
-      const { browser, page } = await open(server, hash);
+      const { browser, page } = await open(server, drawing, hash);
       if (hash === '#plain') await page.evaluate(() => globalThis.map.setZoom(14));
       await page.waitForTimeout(1000);
       frames.push(await panning(browser, page));
@@ -120,11 +123,13 @@ async function measured(name, folder, hashes, turns) {
     await Promise.all(browsers.splice(0).map((each) => each.close()));
     server.close();
   }
-  const first = starts.length > 0 ? [`${['pictureMs', 'ms'].map((key) => (median(starts.map((each) => each[key])) / 1000).toFixed(2)).join(', ')} s`, `${median(starts.map(({ mb }) => mb)).toFixed(2)} MB`] : [`none in ${waits / 1000} s`, ''];
+  const first = turns === 0 ? ['', ''] : starts.length > 0 ? [`${['pictureMs', 'ms'].map((key) => (median(starts.map((each) => each[key])) / 1000).toFixed(2)).join(', ')} s`, `${median(starts.map(({ mb }) => mb)).toFixed(2)} MB`] : [`none in ${waits / 1000} s`, ''];
   console.log(`| ${[name, ...first, failed || frames.join(', '), most > 0 ? `${most.toFixed(0)} MB` : ''].join(' | ')} |`);
 }
 
 const { classes, bounds: [west, south, east, north] } = JSON.parse(readFileSync(join(site, 'site.json'), 'utf8'));
 const at = (zoom) => `#map=${zoom}/${(south + north) / 2}/${(west + east) / 2}`;
-await measured('the page', site, [at(11), at(13), at(15), `${at(15)}&c=${classes.map(({ name }) => name)}`], 3);
-if (geojson) await measured('one GeoJSON', plainPage(join(site, '../plain')), ['#plain'], 1);
+const views = [at(11), at(13), at(15), `${at(15)}&c=${classes.map(({ name }) => name)}`];
+await measured('the page', site, withoutCard, views, 3);
+await measured('the same, all by SwiftShader', site, allByAngle, views, 0);
+if (geojson) await measured('one GeoJSON', plainPage(join(site, '../plain')), withoutCard, ['#plain'], 1);

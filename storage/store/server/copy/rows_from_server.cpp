@@ -42,37 +42,6 @@ void extend(GeoBox& box, const GeoPoint& at) {
     box.north_deg = std::max(box.north_deg, at.lat_deg);
 }
 
-std::string wanted(std::span<const ServerChunk> chunks) {
-    std::vector<std::int64_t> cells, rows;
-    for (const auto& [cell, row] : chunks) {
-        cells.push_back(cell);
-        rows.push_back(row);
-    }
-    return fmt::format("unnest('{}'::integer[], '{}'::bigint[]) AS wanted (cell, chunk)",
-                       array_of(cells),
-                       array_of(rows));
-}
-
-/// Joins rows of a table to each of the rows before, whatever the planner expects of their number:
-/// where new tables have no statistics it would rather read all of them (OFFSET 0 keeps it out).
-std::string
-join_each(std::string_view table, std::string_view alias, const std::string& condition) {
-    return fmt::format(" CROSS JOIN LATERAL (SELECT * FROM macadam.{0} AS {1} WHERE {2} OFFSET 0)"
-                       " AS {1}",
-                       table,
-                       alias,
-                       condition);
-}
-
-std::string join_segments(std::uint32_t chunk_size) {
-    return join_each("segment",
-                     "segment",
-                     fmt::format("segment.cell = wanted.cell AND segment.fid >= wanted.chunk AND"
-                                 " segment.fid < wanted.chunk + {} AND segment.chunk ="
-                                 " wanted.chunk",
-                                 chunk_size));
-}
-
 std::vector<std::int64_t> numbers_in(Database& file, const char* sql) {
     std::vector<std::int64_t> numbers;
     auto select = file.prepare(sql);
@@ -114,13 +83,12 @@ std::string RowsFromServer::from(const char* table, const Chunks& chunks) const 
                      " segment.cell AND state.fid = segment.fid"
                    : fmt::format("macadam.{}", name);
     }
-    const auto source = wanted(*chunks);
+    const auto source = wanted_chunks(*chunks);
     if (name == "segment") {
         return source + join_segments(chunk_size_);
     }
     if (name == "segment_state") {
-        return source + join_segments(chunk_size_) +
-               join_each(name, "state", "state.cell = segment.cell AND state.fid = segment.fid");
+        return source + join_states(chunk_size_);
     }
     if (name == "drive") {
         return source +

@@ -154,14 +154,14 @@ ServerFusion::ServerFusion(ServerConnection& server,
 std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& record) {
     const auto waiting = server_->numbers("SELECT chunk FROM macadam.chunk_dirty GROUP BY chunk"
                                           " ORDER BY min(since_ms), chunk");
-    const auto before = record.segments.size();
+    std::vector<std::int64_t> segments;
     // Chunks that others fuse just now are left to the end, and then waited for one by one: who
     // holds several locks never waits for another one.
     std::vector<std::int64_t> left;
     for (std::size_t done = 0; done < waiting.size() && !progress.stop.stop_requested();) {
         const auto batch =
             std::span{waiting}.subspan(done, std::min(chunks_in_batch, waiting.size() - done));
-        const auto fused = fuse(batch, false, record);
+        const auto fused = fuse(batch, false, record.audit, segments);
         std::ranges::copy_if(batch, std::back_inserter(left), [&](std::int64_t chunk) {
             return !std::ranges::binary_search(fused, chunk);
         });
@@ -169,10 +169,14 @@ std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& re
         progress(done - left.size(), waiting.size());
     }
     for (std::size_t i = 0; i < left.size() && !progress.stop.stop_requested(); ++i) {
-        fuse(std::span{left}.subspan(i, 1), true, record);
+        fuse(std::span{left}.subspan(i, 1), true, record.audit, segments);
         progress(waiting.size() - left.size() + i + 1, waiting.size());
     }
-    return record.segments.size() - before;
+    std::ranges::sort(segments);
+    std::vector<std::int64_t> all;
+    std::ranges::set_union(record.segments, segments, std::back_inserter(all));
+    record.segments = std::move(all);
+    return segments.size();
 }
 
 std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunks, bool waits) {
@@ -188,8 +192,11 @@ std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunk
 }
 
 std::vector<std::int64_t>
-ServerFusion::fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecord& record) {
-    auto now = record; // that of this transaction
+ServerFusion::fuse(std::span<const std::int64_t> chunks,
+                   bool waits,
+                   std::optional<std::int64_t>& audit,
+                   std::vector<std::int64_t>& segments) {
+    auto audit_now = audit; // that of this transaction
     ServerTransaction all{*server_};
     expect_same_();
     auto locked = lock(chunks, waits); // a statement of its own: later ones see what came before it
@@ -211,33 +218,33 @@ ServerFusion::fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecor
         }
         share_cells(*server_, cells);
         batch.fused = scratch_.fused(batch.chunks);
-        write(batch, now);
+        write(batch, audit_now);
     }
     all.commit();
-    record = std::move(now);
+    audit = audit_now;
+    for (const auto& chunk : batch.fused) {
+        for (const auto& segment : chunk.segments) {
+            segments.push_back(segment.fid);
+        }
+    }
     return locked;
 }
 
-void ServerFusion::write(const Batch& batch, FusionRecord& record) {
+void ServerFusion::write(const Batch& batch, std::optional<std::int64_t>& audit) {
     const auto conditions = conditions_of(batch.chunks, *rows_);
     auto before = states_before(*server_, conditions);
     Difference difference;
     for (std::size_t i = 0; i < batch.chunks.size(); ++i) {
         add_difference(difference, before, rows_->place_of(batch.chunks[i]).cell, batch.fused[i]);
-        for (const auto& segment : batch.fused[i].segments) {
-            record.segments.push_back(segment.fid);
-        }
     }
-    std::ranges::sort(record.segments);
-    record.segments.erase(std::ranges::unique(record.segments).begin(), record.segments.end());
     for (const auto& [fid, state] : before) { // no pass of them is left
         difference.removed.push_back(fid);
         difference.numbers.push_back({fid, nullptr});
     }
     write_states(*server_, difference, conditions, image_->classes());
     if (!difference.numbers.empty()) {
-        add_audit(*server_, record.audit);
-        write_numbers(*server_, difference.numbers, *record.audit);
+        add_audit(*server_, audit);
+        write_numbers(*server_, difference.numbers, *audit);
     }
     write_alignments(batch);
     server_->rows("INSERT INTO macadam.chunk_change SELECT unnest($1::bigint[])"

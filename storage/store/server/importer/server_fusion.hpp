@@ -42,11 +42,16 @@ private:
     struct Batch;
 
     /// \param waits  for others that fuse these chunks; otherwise they are left to them.
+    /// \param audit  entry of the import
+    /// \param segments  those fused are added.
     /// \returns the chunks that are done, rising.
-    std::vector<std::int64_t>
-    fuse(std::span<const std::int64_t> chunks, bool waits, FusionRecord& record);
+    std::vector<std::int64_t> fuse(std::span<const std::int64_t> chunks,
+                                   bool waits,
+                                   std::optional<std::int64_t>& audit,
+                                   std::vector<std::int64_t>& segments);
     std::vector<std::int64_t> lock(std::span<const std::int64_t> chunks, bool waits);
-    void write(const Batch& batch, FusionRecord& record);
+    /// \param audit  entry of the import; made if it has none and a value changes.
+    void write(const Batch& batch, std::optional<std::int64_t>& audit);
     void write_alignments(const Batch& batch);
     void remove_marks(const Batch& batch);
 

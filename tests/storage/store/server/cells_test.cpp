@@ -6,6 +6,7 @@
 #include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
+#include "storage/store/server/reader/chunk_choice.hpp"
 #include "support/program/lost_standby.hpp"
 #include "support/roads/cell_world.hpp"
 
@@ -14,6 +15,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <future>
 #include <memory>
@@ -65,6 +67,38 @@ TEST_F(Cells, OnTwoServersFuseRoadsAcrossTheirBorderAsOnOne) {
     EXPECT_GT(move(0, boss_), 0); // and back
     EXPECT_EQ(digest(), copy.digest);
     EXPECT_EQ(drives_in(west_), 4 * trips);
+}
+
+TEST_F(Cells, AreAskedOnceForEachChunkThatIsRead) {
+    import(0, 1);
+    spread();
+    const auto scans_of_states = [&] {
+        ServerConnection east{east_};
+        while (east.number("SELECT count(*) FROM pg_stat_activity WHERE backend_type = 'client"
+                           " backend' AND pid <> pg_backend_pid()") > 0) { // they tell at their end
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        return east.number("SELECT sum(seq_scan + idx_scan)::bigint FROM pg_stat_user_tables WHERE"
+                           " relname ~ '^segment_state_'");
+    };
+    const auto before = scans_of_states();
+    std::size_t chunks_read = 0, segments = 0;
+    {
+        SegmentFilter eastern_road;
+        eastern_road.way_id = 4;
+        ServerConnection reader{front_};
+        ServerTransaction one_moment{reader, true};
+        const auto chunks = chunks_for(reader, eastern_road);
+        chunks_read = chunks.size();
+        const StoreReader part{
+            open_server_part(reader, chunks, {.passes = false}, Audience::operator_, {}, {})};
+        part.visit({}, [&](const SegmentRecord&) { ++segments; });
+    }
+    ASSERT_EQ(chunks_read, 2U); // there and back
+    ASSERT_EQ(segments, 20U);
+    constexpr std::int64_t ends_of_period = 2, cells_there = 2;
+    EXPECT_LE(scans_of_states() - before,
+              static_cast<std::int64_t>(chunks_read) + ends_of_period * cells_there);
 }
 
 TEST_F(Cells, MoveToAnotherServerWhileTripsAreImported) {
