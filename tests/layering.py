@@ -42,6 +42,10 @@ GDAL_OPENING = re.compile(
 HDF5_ACCESS = "storage/trips/signals/hdf5_process.cpp"
 HDF5_OPENING = re.compile(r"<hdf5|\bH5[A-Z]{1,2}[a-z]\w*\(")
 
+# NOTIFY takes a lock of the whole PostgreSQL server until its transaction has committed: commits wait for each other.
+COMMENT = re.compile(r"(^|\s)//.*", re.M)
+NOTIFYING = re.compile(r"\bNOTIFY\b|(?i:pg_notify)")
+
 # Headers that are slow to compile are included by one .cpp each; of JSON by one that writes and one that reads.
 SLOW = {"CLI11": ("<CLI/", 1), "the JSON library": ("<nlohmann/", 2), "the TOML library": ("<toml++", 1)}
 
@@ -100,6 +104,8 @@ def breaches(root):
             yield f"{name}: only {GDAL_ACCESS} opens files by GDAL: {opening[0]}"
         if name != HDF5_ACCESS and (opening := HDF5_OPENING.search(text)):
             yield f"{name}: only {HDF5_ACCESS} opens HDF5: {opening[0]}"
+        if sending := NOTIFYING.search(COMMENT.sub("", text)):
+            yield f"{name}: no NOTIFY, which makes commits wait for each other: {sending[0]}"
     for library, (header, most) in SLOW.items():
         users = [name for name, text in sources.items() if f"#include {header}" in text]
         if len(users) > most:
@@ -144,6 +150,8 @@ BREACHES = [
     ("render/map/new.cpp", "#include <nlohmann/json.hpp>", "too many files include the JSON library"),
     ("storage/rasters/new.cpp", "auto map = GDALDataset::Open(name);", f"only {GDAL_ACCESS} opens files by GDAL"),
     ("storage/trips/signals/new.cpp", "#include <hdf5.h>", f"only {HDF5_ACCESS} opens HDF5"),
+    ("storage/jobs/new.cpp", 'server.run("NOTIFY jobs");', "no NOTIFY, which makes commits wait for each other"),
+    ("app/jobs/new.cpp", 'server.run("SELECT pg_notify($1, $2)");', "no NOTIFY"),
     ("storage/attic/new.cpp", "int x;", "storage/attic: has no line in docs/architecture.md"),
     ("docs/architecture.md", "* `mapping/lost`: Lost", "mapping/lost: has a line in docs/architecture.md"),
     ("docs/architecture.md", "* `mapping/geometry` (fusion): All", "folders use each other in a circle"),

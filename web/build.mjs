@@ -38,6 +38,11 @@ for (const file of ['drive.js', 'drive.css']) {
 for (const file of ['index.html', 'service_worker.js', 'manifest.webmanifest', 'icon.svg', 'icon-180.png', 'icon-512.png']) {
   await copyFile(join(here, 'static/drive', file), join(out, 'drive', file));
 }
+// So is that of a queue, for operators of a server.
+for (const file of ['queue.js', 'queue.css']) {
+  await build({ ...options, entryPoints: [join(here, 'src/queue', file)], outfile: join(out, 'queue', file) });
+}
+await copyFile(join(here, 'static/queue/index.html'), join(out, 'queue/index.html'));
 for (const file of ['index.html', 'service_worker.js', 'assets/icon.svg']) {
   await copyFile(join(here, 'static', file), join(out, file));
 }

@@ -41,10 +41,14 @@ void add_options(CLI::App& parser,
                 ->allow_extra_args(false)
                 ->take_last();
         } else {
-            parser.add_option(std::string{option.name}, values)
-                ->expected(1)
-                ->allow_extra_args(false)
-                ->take_last();
+            auto* const added = parser.add_option(std::string{option.name}, values)
+                                    ->expected(1)
+                                    ->allow_extra_args(false);
+            if (option.is_repeatable) {
+                added->take_all();
+            } else {
+                added->take_last();
+            }
         }
     }
 }

@@ -30,6 +30,7 @@ struct Option {
     std::string_view former{};      ///< earlier spelling: an alias that is answered with a note
     bool former_is_refused = false; ///< the earlier spelling meant something else: a UsageError
     bool is_preference = false;     ///< users may set a default (app/config)
+    bool is_repeatable = false;     ///< each occurrence adds its value; otherwise the last counts
 };
 
 /// \name Words of the tables: `rare(one_of("csv|json", {"--format", ...}))`
@@ -53,6 +54,10 @@ constexpr Option formerly(std::string_view name, Option option) {
 constexpr Option instead_of(std::string_view refused, Option option) {
     option.former = refused;
     option.former_is_refused = true;
+    return option;
+}
+constexpr Option repeatable(Option option) {
+    option.is_repeatable = true;
     return option;
 }
 constexpr Option preference(Option option) {

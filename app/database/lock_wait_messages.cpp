@@ -1,5 +1,6 @@
 #include "app/database/lock_wait_messages.hpp"
 
+#include "app/pipeline/results_version.hpp"
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/postgres/server_address.hpp"
@@ -12,6 +13,13 @@
 #include <string>
 
 namespace macadam {
+namespace {
+
+void warn_of_superuser(const std::string& enough, const Console& console) {
+    console.warn("connected as a superuser of the server: " + enough);
+}
+
+} // namespace
 
 LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console& console) {
     return {.tell =
@@ -42,8 +50,7 @@ StoreInfo create_store(const std::filesystem::path& store,
 
 void warn_of_server(const StoreCopy& copy, const std::string& address, const Console& console) {
     if (copy.by_superuser) {
-        console.warn("connected as a superuser of the server: a role that owns its database is "
-                     "enough");
+        warn_of_superuser("a role that owns its database is enough", console);
     }
     if (copy.is_activity_open) {
         warn_of_open_activity(address, console);
@@ -71,8 +78,15 @@ ImportStore opened_for_import(const std::filesystem::path& store, const Console&
         return import_store_of(opened_store(store, console));
     }
     console.detail(fmt::format("opening {}", store.string()));
-    auto open = open_server_import(store.string(), console.progress("fetching roads"));
-    return {store, StoreReader{open.image}, open.trips};
+    auto open =
+        open_server_import(store.string(), console.progress("fetching roads"), results_version);
+    return {store, StoreReader{open.image}, open.trips, open.by_superuser};
+}
+
+void warn_of_importer(const ImportStore& store, const Console& console) {
+    if (store.by_superuser) {
+        warn_of_superuser("a role that was granted macadam_importer is enough", console);
+    }
 }
 
 StoreReader opened_reader(const std::filesystem::path& file,

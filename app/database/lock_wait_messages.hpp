@@ -36,6 +36,9 @@ RoadStore opened_store(const std::filesystem::path& file, const Console& console
 /// Opens a database, a file or on a server, to import trips.
 ImportStore opened_for_import(const std::filesystem::path& store, const Console& console);
 
+/// Warns if a superuser of the server imports.
+void warn_of_importer(const ImportStore& store, const Console& console);
+
 /// Opens a database for a command that reads, with that wait policy.
 ///
 /// \param need  what the command reads: of a database on a server, only that is fetched.

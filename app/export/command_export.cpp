@@ -137,9 +137,7 @@ SitePlan parse_site(const ExportOptions& options, const Arguments& arguments) {
             throw UsageError{fmt::format("{} and --format site cannot be combined", refused)};
         }
     }
-    return {.title = arguments.value("--title").value_or(title_of(options.store)),
-            .left_hand = arguments.flag("--left-hand"),
-            .tiles = parse_tile_plan(arguments)};
+    return {.look = parse_site_look(arguments, options.store), .tiles = parse_tile_plan(arguments)};
 }
 
 /// Rejects what a format cannot have.

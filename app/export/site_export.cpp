@@ -14,6 +14,7 @@
 #include "mapping/analysis/worst_sections.hpp"
 #include "storage/atomic/atomic_folder.hpp"
 #include "storage/networks/network_file.hpp"
+#include "storage/store/server/reader/local_copy.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,9 @@ constexpr std::size_t worst_count = 200;
 void copy_page(const std::filesystem::path& page, const SiteFolder& folder) {
     std::error_code failed;
     std::filesystem::copy(page, folder.place, std::filesystem::copy_options::recursive, failed);
+    if (!failed) { // the queue is a server's
+        std::filesystem::remove_all(folder.place / "queue", failed);
+    }
     if (failed) {
         throw InputError{
             fmt::format("{}: cannot copy the page: {}", folder.shown.string(), failed.message())};
@@ -130,6 +134,11 @@ std::vector<std::string> months_within(std::vector<std::string> months, const Pe
 
 } // namespace
 
+SiteLook parse_site_look(const Arguments& arguments, const std::filesystem::path& store) {
+    return {.title = arguments.value("--title").value_or(title_of(store)),
+            .left_hand = arguments.flag("--left-hand")};
+}
+
 SiteSegments export_site(const StoreReader& store,
                          const SegmentFilter& filter,
                          const std::filesystem::path& folder,
@@ -145,8 +154,8 @@ SiteSegments export_site(const StoreReader& store,
     SiteTotals totals{*class_table(store.settings().class_table)};
     SiteNames names;
     SiteManifest manifest{
-        .title = plan.title,
-        .left_hand = plan.left_hand,
+        .title = plan.look.title,
+        .left_hand = plan.look.left_hand,
         .bounds = {},
         .segments = records.size(),
         .digest = plan.served_version,
@@ -175,14 +184,17 @@ SiteSegments export_site(const StoreReader& store,
         files.write(fmt::format("words/{}.json", language->code), words_json(*language));
     }
     const bool has_own_tiles = plan.served_version.empty();
-    if (has_own_tiles &&
-        write_overview(
-            store, filter, files.place / overview_file, plan.title, plan.left_hand, console)) {
+    if (has_own_tiles && write_overview(store,
+                                        filter,
+                                        files.place / overview_file,
+                                        plan.look.title,
+                                        plan.look.left_hand,
+                                        console)) {
         manifest.overview = overview_file;
     }
     if (!has_own_tiles || !manifest.overview.empty()) {
         manifest.first_picture = write_first_pictures(
-            store, filter, files.place, manifest.bounds, plan.left_hand, console);
+            store, filter, files.place, manifest.bounds, plan.look.left_hand, console);
     }
     files.write("site.json", manifest_json(store, manifest, totals));
     if (has_own_tiles) {

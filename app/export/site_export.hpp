@@ -14,10 +14,18 @@ namespace macadam {
 inline constexpr Option site_title_option =
     in_group("site", {"--title", "TEXT", "Title of --format site.", "the database's name"});
 
+/// Look of a site.
+struct SiteLook {
+    std::string title;
+    bool left_hand = false; ///< traffic keeps left, and so does each direction on maps
+};
+
+/// Parses --title and --left-hand of a command that has them.
+SiteLook parse_site_look(const Arguments& arguments, const std::filesystem::path& store);
+
 /// Settings of a site.
 struct SitePlan {
-    std::string title;
-    bool left_hand = false;
+    SiteLook look;
     TilePlan tiles;
     std::string served_version{};         ///< of the tiles of a server; "": the site has its own
     const EarlierSite* earlier = nullptr; ///< must outlive the export; null: none

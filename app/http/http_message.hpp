@@ -31,7 +31,7 @@ struct HttpRequest {
     std::string path; ///< percent-decoded, without a NUL: "/collections/segments"
     std::vector<std::pair<std::string, std::string>> parameters; ///< of the query, in its order
     std::map<std::string, std::string, std::less<>> headers;     ///< by name in lower case
-    std::string client; ///< address of the client; behind a proxy, as the proxy states it
+    std::string client; ///< client_network(); behind a proxy, of the address that the proxy states
     std::shared_ptr<HttpBody> body{}; ///< received whole; null: there is none
 
     /// Value of a parameter; `std::nullopt` if it is missing. Of several the first.

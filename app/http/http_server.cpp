@@ -1,13 +1,17 @@
 #include "app/http/http_server.hpp"
 
-#include "app/http/client_loads.hpp"
-#include "app/http/connection_deadlines.hpp"
+#include "app/http/compressed_files.hpp"
+#include "app/http/cross_origin.hpp"
+#include "app/http/http_exchange.hpp"
 #include "app/http/http_stream.hpp"
+#include "app/http/limits/client_loads.hpp"
+#include "app/http/limits/client_network.hpp"
+#include "app/http/limits/connection_deadlines.hpp"
+#include "app/http/limits/worker_lane.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/http/mhd_connection.hpp"
 #include "app/http/request_check.hpp"
 #include "app/http/response_finish.hpp"
-#include "app/http/worker_lane.hpp"
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +22,9 @@
 #include <cstdint>
 #include <deque>
 #include <exception>
+#include <iterator>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,8 +34,6 @@
 
 namespace macadam {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Bytes of responses that clients have not yet read; more are refused, whoever reads slowly.
 constexpr std::uint64_t max_unread_bytes = 256U << 20U;
@@ -43,31 +45,12 @@ constexpr std::uint64_t small_answer_bytes = 256U << 10U;
 /// Bytes of a body that wait in memory until they are handed on.
 constexpr std::size_t block_bytes = std::size_t{32} * 1024;
 
-/// Request with its response, from its first line until the response is sent.
-struct Exchange {
-    explicit Exchange(const char* uri) : target{take_target(uri)} {}
-
-    std::string target;
-    HttpRequest request{};
-    FinishedResponse response{};
-    std::string_view route{}; ///< of the response
-    Clock::time_point begin = Clock::now();
-    bool is_read = false; ///< whole
-    std::optional<HttpResponse> refusal{};
-    std::uint64_t body_bytes = 0; ///< that are to be read before an answer
-    std::uint64_t received_bytes = 0;
-    std::string pending{};        ///< received, and not yet handed on
-    Clock::duration handing_on{}; ///< time for which the client had to wait for us
-    std::size_t lane = 0;
-    bool is_begun = false;
-    bool is_counted = false;           ///< among the requests of its client
-    std::atomic<bool> is_done = false; ///< by the worker
-    std::uint64_t unread_bytes = 0;
-};
-
 } // namespace
 
 struct HttpServer::Impl final : MhdEvents {
+    using Exchange = HttpExchange;
+    using Clock = Exchange::Clock;
+
     Impl(HttpServerConfig its_config, HttpHandlers its_handlers)
         : config{std::move(its_config)}, handlers{std::move(its_handlers)} {
         const bool is_local = !config.unix_socket.empty();
@@ -80,6 +63,7 @@ struct HttpServer::Impl final : MhdEvents {
             lanes.emplace_back(workers, lane.workers, lane.max_waiting);
             workers += lane.workers;
         }
+        lane_loads.resize(lanes.size());
         daemon = start_daemon(*this, listening, config);
         if (daemon == nullptr) {
             close(listening);
@@ -112,7 +96,7 @@ struct HttpServer::Impl final : MhdEvents {
         deadlines.remove(socket_of(connection));
     }
 
-    void* begun(const char* uri) override { return new Exchange{uri}; }
+    void* begun(const char* uri) override { return new Exchange{take_target(uri)}; }
 
     MHD_Result handle(MHD_Connection* connection,
                       const char* method,
@@ -155,7 +139,7 @@ struct HttpServer::Impl final : MhdEvents {
     /// that a slow disk stalls nobody else and no body fills the memory.
     void receive(MHD_Connection* connection, Exchange& exchange, std::string_view block) {
         exchange.received_bytes += block.size();
-        if (!exchange.refusal && exchange.request.body) {
+        if (is_taken(exchange)) {
             exchange.pending += block;
         }
         if (exchange.pending.size() < block_bytes) {
@@ -171,10 +155,16 @@ struct HttpServer::Impl final : MhdEvents {
         });
     }
 
+    static bool is_taken(const Exchange& exchange) {
+        return exchange.request.body && !exchange.refusal;
+    }
+
     void set_body_deadline(MHD_Connection* connection, const Exchange& exchange) const {
-        const auto end = exchange.begin + config.body_time + exchange.handing_on +
-                         std::chrono::seconds{exchange.received_bytes /
-                                              std::max<std::size_t>(config.slowest_bytes, 1)};
+        const auto slowest_bytes =
+            is_taken(exchange) ? config.slowest_upload_bytes : config.slowest_bytes;
+        const auto end =
+            exchange.begin + config.body_time + exchange.handing_on +
+            std::chrono::seconds{exchange.received_bytes / std::max<std::size_t>(slowest_bytes, 1)};
         deadlines.set(socket_of(connection), end - Clock::now());
     }
 
@@ -197,9 +187,12 @@ struct HttpServer::Impl final : MhdEvents {
     std::optional<HttpResponse>
     early_response(MHD_Connection* connection, const char* method, Exchange& exchange) {
         const auto head = head_of(connection, method, exchange.target);
-        exchange.request.client = peer_of(socket_of(connection));
+        exchange.request.client = client_network(peer_of(socket_of(connection)));
         if (auto refusal = decode_head(head, config, exchange.request)) {
             return refusal;
+        }
+        if (exchange.request.method == "OPTIONS") {
+            return preflight_response(exchange.request);
         }
         if (handlers.answer_at_once) {
             if (auto answer = handlers.answer_at_once(exchange.request)) {
@@ -223,13 +216,50 @@ struct HttpServer::Impl final : MhdEvents {
         if (lanes[exchange.lane].is_full() || loads.unread_bytes() > max_unread_bytes) {
             return busy(503, "more is asked than this server can answer now");
         }
-        if (config.behind_proxy) {
-            if (!loads.add_request(exchange.request.client, config.max_per_address)) {
-                return busy(429, "too many requests of one address at once");
-            }
-            exchange.is_counted = true;
+        if (!count_request(exchange)) {
+            return busy(429, "too many requests of one address at once");
         }
         return std::nullopt;
+    }
+
+    /// Counts a request among those of its client. \returns false if they are too many. (A Unix
+    /// socket tells nobody apart.)
+    bool count_request(Exchange& exchange) {
+        const auto& client = exchange.request.client;
+        const auto most = exchange.lane == 0 ? 0 : config.lanes[exchange.lane - 1].max_per_client;
+        if (most > 0 && !client.empty()) {
+            exchange.is_in_lane = lane_loads[exchange.lane].add_request(client, most);
+            if (!exchange.is_in_lane) {
+                return false;
+            }
+        }
+        exchange.is_counted =
+            config.behind_proxy && loads.add_request(client, config.max_per_address);
+        return exchange.is_counted || !config.behind_proxy;
+    }
+
+    /// Makes room in the lane of a request that no worker has any longer.
+    void leave_lane(Exchange& exchange) {
+        if (std::exchange(exchange.is_in_lane, false)) {
+            lane_loads[exchange.lane].remove_request(exchange.request.client);
+        }
+    }
+
+    bool is_public(const HttpRequest& request) const {
+        return !handlers.is_public || handlers.is_public(request);
+    }
+
+    HttpResponse preflight_response(const HttpRequest& request) const {
+        HttpResponse allowed{.status = 204, .cache_control = "no-store"};
+        if (is_public(request)) {
+            allowed.headers = preflight_headers(config.allowed_origins, request.header("origin"));
+        }
+        if (!allowed.headers.empty()) {
+            return allowed;
+        }
+        auto refusal = http_problem(405, "expected GET or HEAD");
+        refusal.headers.emplace_back("Allow", "GET, HEAD");
+        return refusal;
     }
 
     static HttpResponse busy(int status, std::string_view words) {
@@ -239,9 +269,15 @@ struct HttpServer::Impl final : MhdEvents {
     }
 
     /// Gives an exchange its response in the form in which it is sent.
-    void answer(Exchange& exchange, HttpResponse response) const {
+    void answer(Exchange& exchange, HttpResponse response) {
+        const auto& request = exchange.request;
+        if ((request.method == "GET" || request.method == "HEAD") && is_public(request)) {
+            std::ranges::move(
+                cross_origin_headers(config.allowed_origins, request.header("origin")),
+                std::back_inserter(response.headers));
+        }
         exchange.route = response.route;
-        exchange.response = finish(exchange.request, std::move(response), config.allowed_origin);
+        exchange.response = finish(request, std::move(response), compressed_files);
     }
 
     static std::uint64_t content_bytes(const Exchange& exchange) {
@@ -269,6 +305,7 @@ struct HttpServer::Impl final : MhdEvents {
     }
 
     MHD_Result queue_response(MHD_Connection* connection, Exchange& exchange) {
+        leave_lane(exchange);
         count_unread(exchange);
         auto& response = exchange.response;
         const auto bytes = content_bytes(exchange);
@@ -285,7 +322,7 @@ struct HttpServer::Impl final : MhdEvents {
                                  Clock::now() - exchange.begin)});
         }
         if (response.stream) {
-            keep_stream(response.stream);
+            streams.add(response.stream);
         }
         const auto result = send_response(connection, response);
         response.file.reset(); // the connection has one of its own
@@ -298,6 +335,7 @@ struct HttpServer::Impl final : MhdEvents {
         if (!exchange) {
             return;
         }
+        leave_lane(*exchange);
         loads.remove_unread(exchange->request.client, exchange->unread_bytes);
         if (exchange->is_counted) {
             loads.remove_request(exchange->request.client);
@@ -327,7 +365,7 @@ struct HttpServer::Impl final : MhdEvents {
     }
 
     /// Answers, and compresses the answer, which takes its time.
-    void work_on(Exchange& exchange, std::size_t number) const {
+    void work_on(Exchange& exchange, std::size_t number) {
         std::string reason;
         if (!exchange.pending.empty()) {
             hand_on(exchange);
@@ -351,26 +389,6 @@ struct HttpServer::Impl final : MhdEvents {
         answer(exchange, http_problem(500, "the server's log says more"));
     }
 
-    /// Notes a stream, which is ended when the server stops.
-    void keep_stream(const std::shared_ptr<HttpStream>& stream) {
-        const std::lock_guard lock{streams_mutex};
-        std::erase_if(streams, [](const auto& each) { return each.expired(); });
-        streams.push_back(stream);
-        if (is_draining) {
-            stream->end();
-        }
-    }
-
-    void end_streams() {
-        const std::lock_guard lock{streams_mutex};
-        is_draining = true;
-        for (const auto& each : streams) {
-            if (const auto stream = each.lock()) {
-                stream->end();
-            }
-        }
-    }
-
     void drain(std::chrono::milliseconds at_most) {
         if (quiesced < 0) {
             quiesced = MHD_quiesce_daemon(daemon);
@@ -378,7 +396,7 @@ struct HttpServer::Impl final : MhdEvents {
                 unlink(config.unix_socket.c_str());
             }
         }
-        end_streams();
+        streams.end_all();
         const auto end = Clock::now() + at_most;
         constexpr std::chrono::milliseconds pause{5};
         while (at_work > 0 && Clock::now() < end) {
@@ -396,9 +414,9 @@ struct HttpServer::Impl final : MhdEvents {
     std::atomic<std::size_t> connections = 0;
     std::atomic<std::size_t> at_work = 0;
     ClientLoads loads;
-    std::mutex streams_mutex; ///< guards the two below
-    std::vector<std::weak_ptr<HttpStream>> streams;
-    bool is_draining = false;
+    std::vector<ClientLoads> lane_loads; ///< requests of each lane
+    CompressedFiles compressed_files;
+    OpenStreams streams;
     std::deque<WorkerLane> lanes;
 };
 

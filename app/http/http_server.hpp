@@ -18,7 +18,8 @@ namespace macadam {
 /// Workers for requests of one kind, which hold up no others.
 struct HttpLane {
     std::size_t workers = 1;
-    std::size_t max_waiting = 512; ///< requests; more are refused
+    std::size_t max_waiting = 512;  ///< requests; more are refused
+    std::size_t max_per_client = 0; ///< requests of one client that wait or are at work; 0: any
 };
 
 /// Limits of a server (docs/reference/serve.md).
@@ -30,7 +31,7 @@ struct HttpServerConfig {
     std::vector<HttpLane> lanes{};       ///< lanes 1, 2, ..., whose workers have the next numbers
     bool behind_proxy = false; ///< clients are told apart by the last address of X-Forwarded-For
     std::vector<std::string> hosts{}; ///< accepted in the header Host, beside loopback ones
-    std::string allowed_origin{};     ///< of CORS; "" = none
+    std::vector<std::string> allowed_origins{}; ///< of CORS (cross_origin.hpp)
 
     std::size_t max_connections = 2000;
     std::size_t max_per_address = 64; ///< connections; behind a proxy, requests at work
@@ -43,6 +44,7 @@ struct HttpServerConfig {
     std::chrono::milliseconds response_time{60'000};    ///< and 1 s more for each slowest_bytes
     std::chrono::milliseconds body_time{60'000};        ///< in the same way
     std::size_t slowest_bytes = std::size_t{64} * 1024; ///< a second, of a reader or sender
+    std::size_t slowest_upload_bytes = std::size_t{8} * 1024; ///< of the sender of an admitted body
 
     /// Limit of a request's body; 0: none has one, and there is no other method than GET and HEAD.
     std::uint64_t max_body_bytes = 0;
@@ -77,6 +79,9 @@ struct HttpHandlers {
 
     /// Lane whose workers receive the body of an admitted request and answer it; missing: 0.
     std::function<std::size_t(const HttpRequest&)> lane{};
+
+    /// Tells whether pages of allowed origins may read the answer to a request; missing: to all.
+    std::function<bool(const HttpRequest&)> is_public{};
 
     std::function<void(const HttpRecord&)> record{}; ///< from one thread
     std::function<void(const std::string& route, const std::string& what)> failed{};

@@ -49,4 +49,23 @@ void HttpStream::wake_up() {
     }
 }
 
+void OpenStreams::add(const std::shared_ptr<HttpStream>& stream) {
+    const std::lock_guard lock{mutex_};
+    std::erase_if(streams_, [](const auto& each) { return each.expired(); });
+    streams_.push_back(stream);
+    if (has_ended_) {
+        stream->end();
+    }
+}
+
+void OpenStreams::end_all() {
+    const std::lock_guard lock{mutex_};
+    has_ended_ = true;
+    for (const auto& each : streams_) {
+        if (const auto stream = each.lock()) {
+            stream->end();
+        }
+    }
+}
+
 } // namespace macadam

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam {
 
@@ -42,6 +44,20 @@ private:
     bool has_ended_ = false;
     bool is_closed_ = false;
     std::function<void()> wake_; ///< set while the receiver waits
+};
+
+/// Streams that are being sent, which end when the server stops. Thread-safe.
+class OpenStreams {
+public:
+    void add(const std::shared_ptr<HttpStream>& stream);
+
+    /// Ends them, and those that are added later.
+    void end_all();
+
+private:
+    std::mutex mutex_; ///< guards the members below
+    std::vector<std::weak_ptr<HttpStream>> streams_;
+    bool has_ended_ = false;
 };
 
 } // namespace macadam

@@ -1,5 +1,6 @@
 #include "app/http/request_check.hpp"
 
+#include "app/http/limits/client_network.hpp"
 #include "app/http/listening_socket.hpp"
 #include "storage/text/text.hpp"
 
@@ -65,8 +66,9 @@ bool is_reading(const HttpRequest& request) {
 std::optional<HttpResponse> refused_method(const HttpRequest& request,
                                            const HttpServerConfig& config) {
     constexpr std::array writing{"PUT", "POST", "DELETE"};
-    const bool is_known = is_reading(request) || (config.max_body_bytes > 0 &&
-                                                  std::ranges::count(writing, request.method) > 0);
+    const bool is_known =
+        is_reading(request) || (request.method == "OPTIONS" && !config.allowed_origins.empty()) ||
+        (config.max_body_bytes > 0 && std::ranges::count(writing, request.method) > 0);
     if (is_known) {
         return std::nullopt;
     }
@@ -79,7 +81,7 @@ std::optional<HttpResponse> refused_body(const HttpRequest& request,
                                          const HttpServerConfig& config) {
     const auto length = request.header("content-length");
     const bool is_chunked = request.headers.contains("transfer-encoding");
-    if (is_reading(request)) {
+    if (is_reading(request) || request.method == "OPTIONS") {
         return !is_chunked && (length.empty() || length == "0")
                    ? std::nullopt
                    : std::optional{http_problem(413, "requests have no body here")};
@@ -168,7 +170,7 @@ decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest
         const auto comma = forwarded.rfind(',');
         const auto last =
             trimmed(comma == std::string_view::npos ? forwarded : forwarded.substr(comma + 1));
-        request.client = last.empty() ? request.client : std::string{last};
+        request.client = last.empty() ? request.client : client_network(last);
     }
     return std::nullopt;
 }

@@ -81,30 +81,49 @@ std::optional<std::uint64_t> parse_whole(std::string_view text) {
                                                                     : std::nullopt;
 }
 
-void encode(const HttpRequest& request, HttpResponse& response) {
-    if (!response.is_gzipped && !is_compressible(response.type)) {
-        return;
-    }
+/// Tests whether a response is sent in gzip.
+bool is_sent_gzipped(const HttpRequest& request, const HttpResponse& response) {
     // The size of what one client alone may see would tell of its content, to who makes his browser
     // ask for it (BREACH, CVE-2013-3587).
     const bool is_for_one = response.cache_control == "no-store";
-    const bool takes = !is_for_one && takes_gzip(request.header("accept-encoding"));
-    if (response.is_gzipped && !takes) {
-        response.body = gunzipped(response.body);
-    } else if (!response.is_gzipped && takes && request.header("range").empty() &&
-               response.body.size() >= least_compressed) {
-        response.body = gzipped(response.body, GzipUse::sent_once);
-        response.is_gzipped = true;
-    } else if (!response.is_gzipped) {
+    if (is_for_one || !takes_gzip(request.header("accept-encoding"))) {
+        return false;
+    }
+    if (response.is_gzipped || !is_compressible(response.type) ||
+        !request.header("range").empty()) {
+        return response.is_gzipped;
+    }
+    return response.file ? response.file->size >= least_compressed && !response.etag.empty() &&
+                               response.file->size <= CompressedFiles::max_file_bytes
+                         : response.body.size() >= least_compressed;
+}
+
+/// Compresses a response, or decompresses one, as the client takes it.
+void encode(const HttpRequest& request, HttpResponse& response, CompressedFiles& files) {
+    const bool was_gzipped = response.is_gzipped;
+    response.is_gzipped = is_sent_gzipped(request, response);
+    if (was_gzipped == response.is_gzipped) {
         return;
     }
-    if (takes) {
-        response.headers.emplace_back("Content-Encoding", "gzip");
+    if (was_gzipped) {
+        response.body = gunzipped(response.body);
+    } else if (!response.file) {
+        response.body = gzipped(response.body, GzipUse::sent_once);
+    } else if (const auto bytes = files.get(response.etag, *response.file)) {
+        response.body = *bytes;
+        response.file.reset();
+    } else {
+        response.is_gzipped = false;
     }
 }
 
+/// Text of the header ETag. That of a response in gzip is weak: its bytes are others (RFC 9110,
+/// 8.8.3.3).
+std::string quoted_etag(const HttpResponse& response) {
+    return fmt::format("{}\"{}\"", response.is_gzipped ? "W/" : "", response.etag);
+}
+
 void add_common_headers(const HttpResponse& response,
-                        std::string_view allowed_origin,
                         std::vector<std::pair<std::string, std::string>>& headers) {
     const auto add = [&](std::string_view name, std::string_view value) {
         headers.emplace_back(name, value);
@@ -113,15 +132,14 @@ void add_common_headers(const HttpResponse& response,
         add("Content-Type", response.type);
     }
     if (!response.etag.empty()) {
-        add("ETag", fmt::format("\"{}\"", response.etag));
+        add("ETag", quoted_etag(response));
     }
     add("Cache-Control", response.cache_control);
     add("X-Content-Type-Options", "nosniff");
     add("Content-Security-Policy", content_policy);
     add("Referrer-Policy", "no-referrer");
-    if (!allowed_origin.empty()) {
-        add("Access-Control-Allow-Origin", allowed_origin);
-        add("Access-Control-Expose-Headers", "ETag, Link, Content-Range");
+    if (response.is_gzipped && response.status == 200) {
+        add("Content-Encoding", "gzip");
     }
 }
 
@@ -154,18 +172,18 @@ std::optional<BodyRange> parse_range(std::string_view header, std::uint64_t size
     return BodyRange{*first, end - *first + 1};
 }
 
-FinishedResponse
-finish(const HttpRequest& request, HttpResponse response, std::string_view allowed_origin) {
+FinishedResponse finish(const HttpRequest& request, HttpResponse response, CompressedFiles& files) {
     if (response.status == 200 && (response.is_gzipped || is_compressible(response.type))) {
         response.headers.emplace_back("Vary", "Accept-Encoding");
     }
     if (response.status == 200 && !response.etag.empty() &&
         has_match(request.header("if-none-match"), fmt::format("\"{}\"", response.etag))) {
         response.status = 304;
+        response.is_gzipped = is_sent_gzipped(request, response); // for its ETag
         response.body.clear();
         response.file.reset();
     } else if (response.status == 200) {
-        encode(request, response);
+        encode(request, response, files);
     }
     FinishedResponse finished{
         .status = response.status, .body = {}, .file = {}, .stream = {}, .part = {}, .headers = {}};
@@ -187,7 +205,7 @@ finish(const HttpRequest& request, HttpResponse response, std::string_view allow
                           "bytes {}-{}/{}", range->first, range->first + range->size - 1, size));
         }
     }
-    add_common_headers(response, allowed_origin, finished.headers);
+    add_common_headers(response, finished.headers);
     std::ranges::move(response.headers, std::back_inserter(finished.headers));
     finished.body = std::move(response.body);
     finished.file = std::move(response.file);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/http/compressed_files.hpp"
 #include "app/http/http_message.hpp"
 
 #include <cstdint>
@@ -35,9 +36,6 @@ struct FinishedResponse {
 
 /// Applies what a request says of the form of its response: 304 if the client has it, gzip, a range
 /// of it; and adds the headers that all responses have. What no cache may store is not compressed.
-///
-/// \param allowed_origin  of CORS, "*" or an origin; "" = none
-FinishedResponse
-finish(const HttpRequest& request, HttpResponse response, std::string_view allowed_origin = {});
+FinishedResponse finish(const HttpRequest& request, HttpResponse response, CompressedFiles& files);
 
 } // namespace macadam

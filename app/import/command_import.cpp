@@ -61,6 +61,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     options.readmit = arguments.flag("--take-back");
     VehicleChoice vehicles{arguments};
     auto store = opened_for_import(file, console);
+    warn_of_importer(store, console);
     if (known.survey || known.control) {
         constexpr const char* name = "reference";
         store.trips->begin_import(name, 0);

@@ -96,11 +96,12 @@ private:
                 missing.push_back(unique[i]);
             }
         }
+        keep_objects_of(server_, jobs_in(missing));
         for_each(missing, [](SubmittedLog& log, ObjectStore& store) {
             store.put({log.job.sha256, log.job.bytes}, log.file);
         });
         std::erase_if(unique, [](const auto* log) { return !log->refusal.empty(); });
-        const auto results = submit_logs(server_, jobs_in(unique));
+        const auto results = submit_logs(server_, jobs_in(unique), objects_);
         tell(batch, unique, results);
     }
 
@@ -159,8 +160,31 @@ private:
     Counts counts_;
 };
 
+void submit_again(const Arguments& arguments, const Console& console) {
+    for (const std::string name : {"--objects", "--jobs", "--json"}) {
+        if (arguments.is_given(name)) {
+            throw UsageError{fmt::format("--again takes parked logs from where they are stored, "
+                                         "expected no {}",
+                                         name)};
+        }
+    }
+    auto server = opened_server(server_of(arguments));
+    console.say(fmt::format("{} submitted again; 'macadam status' follows them",
+                            counted(submit_parked_logs(server), "parked log")));
+}
+
 void run_submit(const Arguments& arguments, const Console& console) {
     const auto& paths = arguments.operands("PATH");
+    if (arguments.flag("--again") != paths.empty()) {
+        throw UsageError{paths.empty() ? "PATH is missing, expected logs, or --again for those "
+                                         "that are parked"
+                                       : "--again submits the logs that are parked, expected no "
+                                         "PATH"};
+    }
+    if (paths.empty()) {
+        submit_again(arguments, console);
+        return;
+    }
     Submitting submitting{arguments, console};
     auto logs = logs_to_submit(paths, console);
     if (logs.empty()) {
@@ -184,12 +208,15 @@ void run_submit(const Arguments& arguments, const Console& console) {
 
 constexpr std::array operands{
     server_operand,
-    Operand{"PATH",
-            "Trip logs, archives (.zip, .tar.gz), or folders containing them (at any depth).",
-            true}};
+    Operand{.name = "PATH",
+            .help =
+                "Trip logs, archives (.zip, .tar.gz), or folders containing them (at any depth).",
+            .many = true,
+            .optional = true}};
 constexpr std::array options{
     objects_option,
     preference({"--jobs", "N", "Number of logs sent in parallel.", default_jobs_words}),
+    Option{"--again", "", "Submit all parked logs again, from the object store; without PATH."},
     Option{"--json", "", "One JSON object per log on standard output, one per line."}};
 
 } // namespace
@@ -202,15 +229,17 @@ const Command submit_command{
         "reported as new is on\n"
         "disk in both and will be imported once, whatever is killed; one that was submitted "
         "before is skipped, unless it was\n"
-        "refused: then it is tried again. 'macadam worker' imports what waits, 'macadam status' "
-        "tells what became of it.\n"
+        "refused or parked: then it is tried again. 'macadam worker' imports what waits, 'macadam "
+        "status' tells what became of\n"
+        "it. Parked logs need not be sent again: --again queues all of them.\n"
         "Keys of a bucket come from AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY or "
         "~/.aws/credentials, its service from\n"
         "AWS_ENDPOINT_URL and AWS_REGION.",
     .example = "  macadam submit postgresql://me@db.example.org/roads trips/ --objects "
                "/srv/roads/logs\n"
                "  macadam submit postgresql://me@db.example.org/roads a.trip.csv.gz --objects "
-               "s3://roads/logs",
+               "s3://roads/logs\n"
+               "  macadam submit postgresql://me@db.example.org/roads --again",
     .operands = operands,
     .options = options,
     .run = run_submit};

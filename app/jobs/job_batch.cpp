@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <chrono>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -27,6 +27,21 @@ bool is_archive(const fs::path& file) {
     return is_archive_name(file.filename().string());
 }
 
+void fetch(FetchedJob& one, ObjectStore& store) {
+    std::error_code ignored;
+    fs::remove(one.file, ignored); // left by a batch that failed
+    try {
+        store.fetch({one.job.sha256, one.job.bytes}, one.file);
+        one.result = FetchedJob::Result::fetched;
+    } catch (const UnusableObject& error) {
+        one.result = FetchedJob::Result::unusable;
+        one.failure = error.what();
+    } catch (const InputError& error) {
+        one.result = FetchedJob::Result::unreachable;
+        one.failure = error.what();
+    }
+}
+
 } // namespace
 
 std::vector<FetchedJob> fetch_jobs(const std::vector<Job>& jobs,
@@ -37,15 +52,12 @@ std::vector<FetchedJob> fetch_jobs(const std::vector<Job>& jobs,
         fetched.push_back({.job = job, .file = folder / (job.sha256 + job.suffix)});
     }
     const auto lanes = std::min(stores.size(), fetched.size());
+    std::atomic<bool> is_reachable = true;
     parallel_for(lanes, lanes, [&](std::size_t lane) {
-        for (std::size_t i = lane; i < fetched.size(); i += lanes) {
-            auto& one = fetched[i];
-            std::error_code ignored;
-            fs::remove(one.file, ignored); // left by a batch that failed
-            try {
-                stores[lane]->fetch({one.job.sha256, one.job.bytes}, one.file);
-            } catch (const InputError& error) {
-                one.failure = error.what();
+        for (std::size_t i = lane; i < fetched.size() && is_reachable; i += lanes) {
+            fetch(fetched[i], *stores[lane]);
+            if (fetched[i].result == FetchedJob::Result::unreachable) {
+                is_reachable = false;
             }
         }
     });
@@ -78,7 +90,10 @@ WorkedJobs import_jobs(ImportStore& store,
                      [&](const TripReport& report) {
                          for (std::size_t i = 0; i < jobs.size(); ++i) {
                              if (is_of(report, jobs[i].file)) {
-                                 add(outcomes[i], report, jobs[i].file, jobs[i].job.attempts > 1);
+                                 add(outcomes[i],
+                                     report,
+                                     jobs[i].file,
+                                     jobs[i].job.attempts > 1 || jobs[i].job.was_begun);
                              }
                          }
                          if (options.tell) {
@@ -97,7 +112,8 @@ WorkedJobs import_jobs(ImportStore& store,
                                    .state = fate.state,
                                    .reason = std::move(fate.reason),
                                    .passes = outcomes[i].passes,
-                                   .trips = std::move(outcomes[i].stored)});
+                                   .trips = std::move(outcomes[i].stored),
+                                   .own = std::move(outcomes[i].own)});
         } else {
             worked.left.push_back(jobs[i].job);
         }

@@ -7,21 +7,29 @@
 #include "storage/objects/object_store.hpp"
 #include "storage/store/import_store.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace macadam {
 
 /// Job whose log was fetched, or why it could not be.
 struct FetchedJob {
+    /// Beside `fetched`: the object is missing or damaged; the store could not be asked; it was not
+    /// asked any more, because it could not be for another job.
+    enum class Result : std::uint8_t { fetched, unusable, unreachable, left };
+
     Job job;
     std::filesystem::path file;
-    std::string failure{}; ///< "" = none
+    Result result = Result::left;
+    std::string failure{}; ///< of an unusable object or an unreachable store
 };
 
 /// Fetches the logs of jobs into a folder and verifies their hashes, on as many threads as there
-/// are stores.
+/// are stores. Ends early when a store cannot be reached.
 std::vector<FetchedJob> fetch_jobs(const std::vector<Job>& jobs,
                                    const std::filesystem::path& folder,
                                    std::span<const std::unique_ptr<ObjectStore>> stores);

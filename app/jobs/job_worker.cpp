@@ -3,14 +3,17 @@
 #include "app/database/key_messages.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/import/import_run.hpp"
+#include "app/jobs/deleted_logs.hpp"
 #include "app/jobs/job_batch.hpp"
 #include "app/jobs/job_options.hpp"
 #include "app/jobs/worker_heartbeat.hpp"
 #include "app/pipeline/results_version.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/atomic/temporary_folder.hpp"
+#include "storage/jobs/sent_logs.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/objects/object_store.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
 
 #include <fmt/format.h>
 
@@ -36,8 +39,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto look_every = 1s; // with jitter: a NOTIFY would make commits wait for each other
 constexpr auto after_trouble = 5s;
+constexpr auto max_objects_pause = 60s;
+constexpr auto upkeep_every = 60s;
 constexpr auto fuse_at_age = 45s;
 constexpr std::size_t max_batch = 100;
+constexpr std::size_t max_erased = 20; // in one transaction: who submits one of them again waits
 
 /// Folder for fetched logs; removes those that killed workers of this user left.
 fs::path swept_temporary_name() {
@@ -49,6 +55,21 @@ fs::path swept_temporary_name() {
     return name;
 }
 
+/// The object store cannot be reached, whatever job it was asked for.
+struct ObjectsAway : InputError {
+    using InputError::InputError;
+};
+
+/// Calls something whose errors are those of the object store.
+template <typename Call>
+void call_objects(Call call) {
+    try {
+        call();
+    } catch (const InputError& error) {
+        throw ObjectsAway{error.what()};
+    }
+}
+
 class JobWorker {
 public:
     JobWorker(const JobWork& work, const Console& console)
@@ -56,7 +77,7 @@ public:
           vehicles_{work.import_arguments}, taker_{new_worker_name(), work.lease},
           folder_{swept_temporary_name()} {
         options_.tell = work.tell;
-        connect();
+        connect_queue();
         begin_worker(*queue_,
                      {.taker = taker_, .results_version = results_version, .jobs = options_.jobs},
                      work.takes_over);
@@ -66,6 +87,8 @@ public:
     /// Works until it is stopped or done, and takes its row away, whatever ends it.
     void run() {
         try {
+            connect();
+            open_stores();
             work();
         } catch (...) {
             end();
@@ -78,46 +101,77 @@ private:
     void work() {
         while (!console_.stop().stop_requested()) {
             try {
+                delete_if_asked();
                 connect();
+                look_after();
+                fuse_if_older_than(fuse_at_age);
+                open_stores();
                 if (!work_batch() && !is_idle_done()) {
                     pause(look_every);
                 } else if (is_done_) {
                     break;
                 }
                 trouble_.clear();
+            } catch (const OtherResults&) { // it will not pass
+                throw;
+            } catch (const ObjectsAway& error) {
+                if (wait_out(error, objects_trouble_, objects_pause_)) {
+                    objects_pause_ = std::min(2 * objects_pause_, max_objects_pause);
+                    stores_.clear(); // its keys may have been replaced
+                }
             } catch (const InputError& error) {
-                if (console_.stop().stop_requested()) {
-                    break;
+                if (wait_out(error, trouble_, after_trouble)) {
+                    store_.reset(); // its network may have been replaced
+                    queue_.reset();
                 }
-                if (work_.until_empty) {
-                    throw;
-                }
-                if (std::exchange(trouble_, error.what()) != error.what()) {
-                    console_.warn(error.what());
-                }
-                store_.reset(); // its network may have been replaced
-                queue_.reset();
-                pause(after_trouble);
             }
         }
     }
 
-    void connect() {
+    /// While an error is handled that may pass: says it once, and pauses. Throws it on if the
+    /// worker is to end when nothing waits. \returns false after a stop request.
+    bool wait_out(const InputError& error, std::string& told, std::chrono::seconds about) {
+        if (console_.stop().stop_requested()) {
+            return false;
+        }
+        if (work_.until_empty) {
+            throw;
+        }
+        if (std::exchange(told, error.what()) != error.what()) {
+            console_.warn(error.what());
+        }
+        pause(about);
+        return !console_.stop().stop_requested();
+    }
+
+    void connect_queue() {
         if (!queue_) {
             queue_.emplace(opened_server(work_.address));
             put_back_all(*queue_, taker_);
         }
+    }
+
+    void open_stores() {
         if (stores_.empty()) {
             const auto location =
                 work_.objects.empty() ? objects_location(*queue_) : std::optional{work_.objects};
-            while (location && stores_.size() < options_.jobs) {
-                stores_.push_back(
-                    open_object_store(*location, console_.stop(), MissingFolder::refuse));
-            }
+            call_objects([&] {
+                while (location && stores_.size() < options_.jobs) {
+                    stores_.push_back(
+                        open_object_store(*location, console_.stop(), MissingFolder::refuse));
+                }
+            });
         }
+    }
+
+    void connect() {
+        connect_queue();
         if (!store_) {
             store_.emplace(opened_for_import(work_.address, console_));
             make_missing_key(*store_->trips, console_);
+            if (!std::exchange(is_role_told_, true)) {
+                warn_of_importer(*store_, console_);
+            }
             if (is_crowd() && work_.keeps_logs) {
                 throw InputError{fmt::format("{}: is a crowd database, whose logs are erased once "
                                              "they are worked out; expected no --keep-logs",
@@ -134,7 +188,7 @@ private:
         if (stores_.empty()) {
             return false; // nothing was submitted so far
         }
-        stores_.front()->expect_in_place();
+        call_objects([&] { stores_.front()->expect_in_place(); });
         const auto taken =
             take_jobs(*queue_, taker_, batch_, batches_++ % retries_every == retries_every - 1);
         if (taken.empty()) {
@@ -143,7 +197,12 @@ private:
         const auto begin = Clock::now();
         try {
             work_out(taken);
+        } catch (const ObjectsAway&) { // after all were given back or imported
+            throw;
         } catch (const ServerTrouble&) {
+            put_back(taken);
+            throw;
+        } catch (const OtherResults&) {
             put_back(taken);
             throw;
         } catch (const std::exception& error) { // perhaps by one of them: each is tried alone
@@ -151,30 +210,52 @@ private:
             throw;
         }
         adapt_batch(taken.size(), Clock::now() - begin);
+        objects_answered();
         erase_done();
-        fuse_if_older_than(fuse_at_age);
         return true;
     }
 
     void work_out(const std::vector<Job>& taken) {
         auto fetched = fetch_jobs(taken, folder_.path(), stores_);
-        const auto failed = std::ranges::stable_partition(
-            fetched, [](const FetchedJob& one) { return one.failure.empty(); });
         if (console_.stop().stop_requested()) {
             put_back(taken);
             return;
         }
-        for (const auto& one : failed) {
-            console_.warn(one.failure);
-            fail_job(*queue_, taker_, one.job, one.failure);
+        const auto trouble = give_back_unfetched(fetched);
+        if (!fetched.empty()) {
+            const auto worked = import_jobs(*store_, fetched, options_, vehicles_, console_);
+            heartbeat_->add_finished(finish_jobs(*queue_, taker_, worked.ends));
+            put_back_jobs(*queue_, taker_, worked.left);
         }
-        fetched.erase(failed.begin(), failed.end());
-        if (fetched.empty()) {
-            return;
+        if (!trouble.empty()) {
+            throw ObjectsAway{trouble + "; its logs wait until it can be reached"};
         }
-        const auto worked = import_jobs(*store_, fetched, options_, vehicles_, console_);
-        heartbeat_->add_finished(finish_jobs(*queue_, taker_, worked.ends));
-        put_back_jobs(*queue_, taker_, worked.left);
+    }
+
+    /// Gives jobs back whose logs were not fetched, and removes them from the list. Only a log that
+    /// is missing or damaged has had an attempt. \returns why the store was not reached; "" if it
+    /// was.
+    std::string give_back_unfetched(std::vector<FetchedJob>& jobs) {
+        using enum FetchedJob::Result;
+        std::string trouble;
+        for (const auto& [job, file, result, failure] : jobs) {
+            if (result == unusable) {
+                console_.warn(failure);
+                fail_job(*queue_, taker_, job, failure);
+            } else if (result == unreachable) { // others are tried before it, as it may be its own
+                trouble = failure;
+                put_back_jobs(*queue_, taker_, {&job, 1}, 2 * objects_pause_);
+            } else if (result == left) {
+                put_back_jobs(*queue_, taker_, {&job, 1});
+            }
+        }
+        std::erase_if(jobs, [](const FetchedJob& one) { return one.result != fetched; });
+        return trouble;
+    }
+
+    void objects_answered() {
+        objects_trouble_.clear();
+        objects_pause_ = after_trouble;
     }
 
     void count_failure(const std::vector<Job>& jobs, const std::string& reason) {
@@ -213,23 +294,53 @@ private:
     /// Removes logs from the object store that are imported, or of a crowd and worked out, also
     /// those of killed workers; and from the queue those that have been gone for long.
     void erase_done() {
+        remove_old_jobs(*queue_, 2 * max_batch);
+        for (std::size_t erased = 0; erased < 2 * max_batch && erase_some();) {
+            erased += max_erased;
+        }
+    }
+
+    /// \returns whether there may be more.
+    bool erase_some() {
         const auto which = work_.keeps_logs ? ErasedLogs::forgotten
                            : is_crowd()     ? ErasedLogs::worked_out
                                             : ErasedLogs::imported;
-        remove_old_jobs(*queue_, 2 * max_batch);
-        const auto done = jobs_to_erase(*queue_, 2 * max_batch, which);
+        ServerTransaction all{*queue_};
+        const auto done = jobs_to_erase(*queue_, max_erased, which);
         if (done.empty()) {
-            return;
+            return false;
         }
-        try {
+        note_erased(*queue_, done);
+        call_objects([&] {
             for (const auto& job : done) {
                 stores_.front()->remove(job.sha256);
             }
-        } catch (const InputError& error) { // others will try
-            console_.warn(error.what());
+        });
+        all.commit();
+        objects_answered();
+        return done.size() == max_erased;
+    }
+
+    /// Deletes trips whose senders ask for it, together with those of the next minute.
+    void delete_if_asked() {
+        if (Clock::now() < may_delete_at_) {
             return;
         }
-        note_erased(*queue_, done);
+        may_delete_at_ = Clock::now() + upkeep_every; // even if it fails
+        connect_queue();
+        if (has_deletions(*queue_)) {
+            store_.reset();
+            delete_trips_of_logs(work_.address, console_);
+        }
+    }
+
+    /// Removes what killed importers left on servers of cells, and keeps counts short.
+    void look_after() {
+        if (Clock::now() >= upkeep_at_) {
+            upkeep_at_ = Clock::now() + upkeep_every; // even if it fails
+            remove_unfinished(*queue_);
+            sum_job_counts(*queue_);
+        }
     }
 
     /// Fuses if the oldest new passes wait for so long. Several workers divide the chunks.
@@ -296,8 +407,12 @@ private:
     std::size_t batch_ = 8;
     std::size_t batches_ = 0;
     Clock::time_point may_fuse_at_{};
+    Clock::time_point upkeep_at_{};
+    Clock::time_point may_delete_at_{};
     bool is_done_ = false;
-    std::string trouble_;
+    bool is_role_told_ = false;             ///< once, not after each trouble
+    std::string trouble_, objects_trouble_; ///< as told last
+    std::chrono::seconds objects_pause_ = after_trouble;
     std::minstd_rand random_{std::random_device{}()};
 };
 

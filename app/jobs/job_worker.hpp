@@ -25,10 +25,12 @@ struct JobWork {
 /// Works out the queue of a database: takes jobs, fetches and verifies their logs, imports them,
 /// and fuses new passes once the oldest is 45 s old or nothing waits. Any number of workers share a
 /// queue; a kill at any moment loses no log and counts none twice. After an error of the server it
-/// connects again, and jobs whose attempt that ended are tried again.
+/// connects again, and jobs whose attempt that ended are tried again. While the object store cannot
+/// be reached, jobs wait, and no attempt counts.
 ///
 /// \throws InputError  at the begin, if the server or the object store cannot be used; later if a
-///                     worker that works until the queue is empty meets an error of the server.
+///                     worker that works until the queue is empty meets an error of the server
+///                     or the object store, or workers of other results took over.
 void work_out_jobs(const JobWork& work, const Console& console);
 
 } // namespace macadam

@@ -40,6 +40,7 @@ void add(LogOutcome& outcome,
     }
     if (report.result == Result::imported || (report.result == Result::known && is_our_own)) {
         ++outcome.imported;
+        outcome.own.push_back(report.sha256);
         outcome.passes += static_cast<std::int64_t>(report.passes);
     } else if (report.result == Result::known) {
         ++outcome.known;

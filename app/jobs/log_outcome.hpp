@@ -17,6 +17,7 @@ struct LogOutcome {
     std::int64_t passes = 0;
     std::string reason{};              ///< the first one
     std::vector<std::string> stored{}; ///< SHA-256 of trips that are in the database
+    std::vector<std::string> own{};    ///< of these, imported from this log
 
     std::size_t trips() const { return imported + known + outside + rejected; }
 };

@@ -59,7 +59,7 @@ std::string specification_of(const Option& option) {
     for (std::size_t begin = 0; begin < option.name.size();) {
         const auto end = std::min(option.name.find(',', begin), option.name.size());
         lines += fmt::format("            '{}{}{}[{}]{}' \\\n",
-                             option.many ? "*" : exclusive,
+                             option.many || option.is_repeatable ? "*" : exclusive,
                              option.name.substr(begin, end - begin),
                              "",
                              in_quotes(option.help),

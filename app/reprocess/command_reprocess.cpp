@@ -10,18 +10,30 @@
 #include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
+#include "app/pipeline/results_version.hpp"
 #include "app/reprocess/kept_trips.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/jobs/worker_register.hpp"
 #include "storage/postgres/server_address.hpp"
+#include "storage/postgres/server_connection.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <optional>
+#include <string>
 
 namespace macadam {
 namespace {
+
+/// \throws OtherResults  if workers of a database on a server compute others than this program.
+void expect_results_of_workers(const std::string& store) {
+    if (is_server_address(store)) {
+        ServerConnection server{store};
+        expect_results_version(server, results_version);
+    }
+}
 
 void run_reprocess(const Arguments& arguments, const Console& console) {
     const auto jobs = jobs_of(arguments);
@@ -39,6 +51,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
         throw UsageError{"--logs-key is for a crowd database, which is a file"};
     }
     auto store = opened_store(file, console);
+    expect_results_of_workers(file.string());
     AskedTrips trips{{words.begin(), words.end()},
                      {.mapping = mapping_of(arguments),
                       .positions = arguments.value("--positions").value_or(""),
@@ -67,6 +80,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                                      counted(totals.looked_at(), "trip"))};
     }
     trips.tell_rest(console);
+    expect_results_of_workers(file.string()); // who may have changed meanwhile
     const auto fusing = console.progress("fusing");
     const auto method = config.estimator.method == Method::kf ? "kf" : "smoother";
     const auto done = store.maintenance.commit_staged(fmt::format("method {}", method), fusing);

@@ -133,7 +133,7 @@ std::optional<HttpResponse> page_file(const LivePage& page, const HttpRequest& r
 /// Returns a file of the recorder, which is there before the first map; `std::nullopt` if it is
 /// none.
 std::optional<HttpResponse> recorder_file(const std::string& path) {
-    if (!path.starts_with("/drive/")) {
+    if (!is_path_of_recorder(path)) {
         return std::nullopt;
     }
     try {
@@ -144,6 +144,10 @@ std::optional<HttpResponse> recorder_file(const std::string& path) {
 }
 
 } // namespace
+
+bool is_path_of_recorder(std::string_view path) {
+    return path == "/drive" || path.starts_with("/drive/");
+}
 
 HttpResponse answer_reading(Pages& pages, const ApiContext& context) {
     if (const auto page = wants_map(context.request) ? pages.live.page() : nullptr) {

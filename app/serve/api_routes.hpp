@@ -6,6 +6,8 @@
 #include "app/serve/ogc/api_context.hpp"
 #include "app/serve/ogc/features_api.hpp"
 
+#include <string_view>
+
 namespace macadam {
 
 /// Sources of the answers of a server: the database and what is made from it.
@@ -14,6 +16,9 @@ struct Pages {
     const LiveContent& live;
     PictureTiles& pictures;
 };
+
+/// Tests for a path of the recorder, also without the slash to which it is redirected.
+bool is_path_of_recorder(std::string_view path);
 
 /// Answers a request to read from the API, or else from the files of the web page.
 /// \throws InputError  if the database cannot be read.

@@ -7,8 +7,12 @@
 #include "app/serve/ogc/collections.hpp"
 #include "app/serve/ogc/features_api.hpp"
 #include "app/serve/ogc/tiles_api.hpp"
+#include "app/serve/queue/queue_page.hpp"
+#include "app/serve/queue/queue_watch.hpp"
 #include "app/serve/served_store.hpp"
+#include "app/serve/server_health.hpp"
 #include "app/serve/server_metrics.hpp"
+#include "app/serve/trips/server_uploads.hpp"
 #include "app/serve/trips/trips_api.hpp"
 #include "app/uploads/upload_workers.hpp"
 #include "estimator/common/error.hpp"
@@ -22,6 +26,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -47,10 +52,33 @@ constexpr std::uint64_t max_trip_bytes = 64U << 20U; // four hours of a phone at
 constexpr HttpLane drawing_workers{.workers = 8, .max_waiting = 64};
 constexpr HttpLane storing_workers{.workers = 2, .max_waiting = 256};
 
+/// Workers that select features, which can take 10 s: tiles and pages never wait for them, nor does
+/// anybody for more than a few requests of one client.
+HttpLane selecting_workers(std::size_t count) {
+    return {.workers = count, .max_waiting = 256, .max_per_client = 8};
+}
+
+/// Tests for a path of features, or of what is computed from all of them.
+bool is_path_of_features(std::string_view path) {
+    return (path == "/collections" || path.starts_with("/collections/")) &&
+           !path.starts_with("/collections/segments/tiles");
+}
+
 std::size_t lane_of(const HttpRequest& request) {
-    constexpr std::size_t of_all = 0, of_drawing = 1, of_storing = 2;
+    constexpr std::size_t of_all = 0, of_drawing = 1, of_storing = 2, of_selecting = 3;
     const bool writes = request.method != "GET" && request.method != "HEAD";
-    return writes ? of_storing : is_for_picture_tile(request) ? of_drawing : of_all;
+    return writes                              ? of_storing
+           : is_for_picture_tile(request)      ? of_drawing
+           : is_path_of_features(request.path) ? of_selecting
+                                               : of_all;
+}
+
+std::size_t count_workers(const HttpServerConfig& config) {
+    auto count = config.workers;
+    for (const auto& lane : config.lanes) {
+        count += lane.workers;
+    }
+    return count;
 }
 
 // -------------------------------------------------------------------------------------- server
@@ -83,24 +111,28 @@ void log_request(const HttpRecord& record) {
 }
 
 /// Handlers that count and log, and answer /health and /metrics.
+/// \param queue  null: there is none
 HttpHandlers common_handlers(ServerMetrics& metrics,
+                             QueueWatch* queue,
+                             const ServerHealth& health,
                              const std::atomic<const HttpServer*>& server,
                              const ServedAddress& address,
                              const Console& console) {
     HttpHandlers handlers;
-    handlers.answer_at_once = [&](const HttpRequest& request) -> std::optional<HttpResponse> {
+    handlers.answer_at_once = [&,
+                               queue](const HttpRequest& request) -> std::optional<HttpResponse> {
         if (!reads(request)) {
             return std::nullopt;
         }
         if (request.path == "/health") {
-            return HttpResponse{
-                .body = "{\"status\":\"pass\"}\n", .cache_control = "no-store", .route = "/health"};
+            return health.response();
         }
         if (request.path == "/metrics") {
             const auto* const running = server.load(); // null while it starts
             return HttpResponse{.type = "text/plain; version=0.0.4",
                                 .body =
-                                    metrics.text(running == nullptr ? 0 : running->connections()),
+                                    metrics.text(running == nullptr ? 0 : running->connections()) +
+                                    (queue == nullptr ? "" : queue->metrics()),
                                 .cache_control = "no-store",
                                 .route = "/metrics"};
         }
@@ -140,16 +172,36 @@ HttpAdmission admitted(TripsApi& trips, const HttpRequest& request, bool only_wi
     }
     if (reads(request)) {
         using Readers = TripsApi::Readers;
-        if (is_path_of_operator(request.path)) {
+        if (is_path_of_operator(request.path) || is_path_of_queue(request.path)) {
             return {.refusal = trips.refused_reading(request, Readers::operator_)};
         }
-        const bool is_open = !only_with_token || request.path.starts_with("/drive/");
+        const bool is_open = !only_with_token || is_path_of_recorder(request.path);
         return {.refusal =
                     is_open ? std::nullopt : trips.refused_reading(request, Readers::with_token)};
     }
     auto refusal = http_problem(405, "expected GET or HEAD");
     refusal.headers.emplace_back("Allow", "GET, HEAD");
     return {.refusal = std::move(refusal)};
+}
+
+/// Finds where the database has its tokens and uploads; null if it has none.
+/// \throws InputError  if only tokens let somebody read, and there can be none.
+std::unique_ptr<UploadPlace> upload_place(const std::filesystem::path& file,
+                                          const TripReception& reception) {
+    const bool is_for_staff = !reception.staff_header.empty(); // who use it without a token
+    if (reception.server.empty()) {
+        if (is_for_staff) {
+            make_uploads_folder(file);
+        }
+        return uploads_beside(file);
+    }
+    auto place = uploads_on_server(reception.server, is_for_staff);
+    if (!place && (reception.only_with_token || is_for_staff)) {
+        throw InputError{fmt::format("{}: the role may not read tokens, expected a member of "
+                                     "macadam_importer or macadam_operator",
+                                     reception.server)};
+    }
+    return place;
 }
 
 /// Waits a second, or until a stop is requested.
@@ -169,43 +221,50 @@ void serve_database(const std::filesystem::path& file,
                     const Console& console,
                     const std::function<void(std::uint16_t port)>& started,
                     const TripReception& reception,
-                    const std::optional<SectionOptions>& sections) {
+                    const std::optional<SectionOptions>& sections,
+                    const SiteLook& look) {
     auto config = asked;
     config.max_body_bytes = max_trip_bytes;
-    config.lanes = {drawing_workers, storing_workers};
+    config.lanes = {drawing_workers, storing_workers, selecting_workers(config.workers)};
     std::stop_source interruption; // of reading, once the time to drain is over
-    ServedStore store{file,
-                      audience,
-                      config.workers + drawing_workers.workers + storing_workers.workers,
-                      interruption.get_token()};
-    LiveContent live{file, audience, console};
-    PictureTiles pictures{file, audience, console};
+    ServedStore store{file, audience, count_workers(config), interruption.get_token()};
+    LiveContent live{file, audience, console, look};
+    PictureTiles pictures{file, audience, console, look.left_hand};
     Pages pages{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
     Pages of_operator{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
     UploadWorkers workers{{.store = file, .arguments = upload_arguments(reception.import_words)},
-                          reception.workers,
+                          reception.server.empty() ? reception.workers : 0,
                           console};
-    if (!reception.staff_header.empty()) {
-        make_uploads_folder(file); // which staff use without a token
-    }
-    TripsApi trips{file, {.base = address.base, .staff_header = reception.staff_header}, [&] {
-                       workers.wake();
-                   }};
+    TripsApi trips{upload_place(file, reception),
+                   {.base = address.base, .staff_header = reception.staff_header},
+                   [&] { workers.wake(); }};
     const auto follow = [&] {
         live.refresh(store.version(), store.shows_published_alone());
         trips.set_crowd(store.shows_published_alone());
     };
     follow();
-    auto handlers = common_handlers(metrics, running, address, console);
+    std::optional<QueueWatch> queue;
+    if (!reception.server.empty()) {
+        queue.emplace(reception.server, console);
+    }
+    auto* const queue_or_none = queue ? &*queue : nullptr;
+    ServerHealth health;
+    auto handlers = common_handlers(metrics, queue_or_none, health, running, address, console);
     handlers.admit = [&](const HttpRequest& request) {
         return admitted(trips, request, reception.only_with_token);
     };
     handlers.lane = lane_of;
+    handlers.is_public = [](const HttpRequest& request) {
+        return !TripsApi::has_path(request.path) && !is_path_of_queue(request.path);
+    };
     handlers.answer = [&](const HttpRequest& request, std::size_t worker) {
         if (TripsApi::has_path(request.path)) {
             return trips.answer(request);
+        }
+        if (is_path_of_queue(request.path)) {
+            return queue_response(request, queue_or_none);
         }
         const bool is_operator =
             request.path.starts_with("/collections") && trips.is_of_operator(request);
@@ -240,7 +299,9 @@ void serve_database(const std::filesystem::path& file,
                 follow();
             }
             trouble.clear();
+            health.warn("");
         } catch (const InputError& error) { // replaced or locked: what was read before stays
+            health.warn("the database cannot be read now; the server shows what it read before");
             if (std::exchange(trouble, error.what()) != error.what()) {
                 console.warn(error.what());
             }
@@ -259,7 +320,8 @@ void serve_folder(const std::filesystem::path& folder,
                   const std::function<void(std::uint16_t port)>& started) {
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
-    auto handlers = common_handlers(metrics, running, address, console);
+    const ServerHealth health;
+    auto handlers = common_handlers(metrics, nullptr, health, running, address, console);
     handlers.answer = [&](const HttpRequest& request, std::size_t) {
         return file_response(folder, request.path)
             .value_or(http_problem(404, "there is no such file"));

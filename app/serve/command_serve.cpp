@@ -3,6 +3,7 @@
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/server_store.hpp"
+#include "app/http/cross_origin.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/parallel/jobs_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
@@ -30,6 +31,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -82,6 +84,23 @@ void parse_proxy(const std::string& url, HttpServerConfig& config, ServedAddress
     address.base = url.substr(0, url.find_last_not_of('/') + 1);
 }
 
+/// Parses the origins of --allow-origin.
+std::vector<std::string> parse_origins(const Arguments& arguments) {
+    auto origins = arguments.values("--allow-origin");
+    for (auto& origin : origins) {
+        origin = in_lower_case(origin);
+        if (!is_origin(origin)) {
+            throw UsageError{fmt::format("--allow-origin is '{}', expected an origin without a "
+                                         "path, such as https://maps.example.org, or *",
+                                         origin)};
+        }
+        if (origin == "*" && origins.size() > 1) {
+            throw UsageError{"--allow-origin is '*' and names sites, expected one of both"};
+        }
+    }
+    return origins;
+}
+
 TripReception parse_reception(const Arguments& arguments) {
     constexpr std::int64_t max_workers = 64;
     const auto workers = arguments.integer("--workers").value_or(1);
@@ -118,12 +137,31 @@ std::string parse_staff_header(const Arguments& arguments, const HttpServerConfi
     return header;
 }
 
-/// Rejects options that need tokens, which lie beside a file.
-void expect_no_reception(const Arguments& arguments) {
-    for (const auto* const option : {"--only-with-token", "--workers"}) {
+/// Rejects options that have no effect on a folder.
+void expect_no_database_options(const Arguments& arguments) {
+    for (const auto* const option : {"--staff-header", "--only-with-token"}) {
         if (arguments.is_given(option)) {
-            throw UsageError{fmt::format("{} is for a .gpkg file; logs for a server go through "
-                                         "'macadam submit' and 'macadam worker'",
+            throw UsageError{fmt::format("{} is for a database; a folder is shown to all", option)};
+        }
+    }
+    for (const auto* const option : {"--title", "--left-hand"}) {
+        if (arguments.is_given(option)) {
+            throw UsageError{fmt::format("{} is for a database; a folder has what it was given by "
+                                         "'macadam export --format site'",
+                                         option)};
+        }
+    }
+    if (parse_sections(arguments, false)) {
+        throw UsageError{"--sections is for a database; a folder has no collections"};
+    }
+}
+
+/// Rejects options of workers, which a database on a server has elsewhere.
+void expect_no_workers(const Arguments& arguments) {
+    for (const auto* const option : {"--workers", "--vehicles", "--method"}) {
+        if (arguments.is_given(option)) {
+            throw UsageError{fmt::format("{} is for a .gpkg file; 'macadam worker' imports what a "
+                                         "database on a server receives",
                                          option)};
         }
     }
@@ -175,7 +213,7 @@ void run_serve(const Arguments& arguments, const Console& console) {
     if (const auto url = arguments.value("--behind-proxy")) {
         parse_proxy(*url, config, address);
     }
-    config.allowed_origin = arguments.value("--allow-origin").value_or("");
+    config.allowed_origins = parse_origins(arguments);
     config.workers = jobs_of(arguments);
     address.has_access_log = arguments.flag("--access-log");
     const auto started = [&](std::uint16_t port) {
@@ -193,15 +231,7 @@ void run_serve(const Arguments& arguments, const Console& console) {
     };
     const std::filesystem::path given = arguments.operand("STORE");
     if (std::filesystem::is_directory(given)) {
-        if (arguments.is_given("--staff-header")) {
-            throw UsageError{"--staff-header is for a database; a folder is shown to all"};
-        }
-        if (arguments.flag("--only-with-token")) {
-            throw UsageError{"--only-with-token is for a database; a folder is shown to all"};
-        }
-        if (parse_sections(arguments, false)) {
-            throw UsageError{"--sections is for a database; a folder has no collections"};
-        }
+        expect_no_database_options(arguments);
         serve_folder(given, config, address, console, started);
         return;
     }
@@ -214,7 +244,7 @@ void run_serve(const Arguments& arguments, const Console& console) {
     const auto& file = copy.file();
     const bool is_on_server = copy.is_of_server();
     if (is_on_server) {
-        expect_no_reception(arguments);
+        expect_no_workers(arguments);
     }
     tell_publication(StoreReader::open(file), console);
     auto reception = parse_reception(arguments);
@@ -223,8 +253,17 @@ void run_serve(const Arguments& arguments, const Console& console) {
     std::optional<CopyFollower> follower;
     if (is_on_server) {
         follower.emplace(copy, console);
+        reception.server = store.string();
     }
-    serve_database(file, Audience::anyone, config, address, console, started, reception, sections);
+    serve_database(file,
+                   Audience::anyone,
+                   config,
+                   address,
+                   console,
+                   started,
+                   reception,
+                   sections,
+                   parse_site_look(arguments, store));
 }
 
 constexpr std::array operands{Operand{"STORE",
@@ -244,9 +283,9 @@ constexpr std::array options{
           "NAME",
           "On a Unix socket: who is named in this header, by a proxy that logs staff in, may do as "
           "an operator."}),
-    Option{"--allow-origin",
-           "ORIGIN",
-           "Let pages of this site, or * for all, read the answers (CORS)."},
+    repeatable({"--allow-origin",
+                "ORIGIN",
+                "Let pages of this site, or * for all, read the answers (CORS); can be repeated."}),
     Option{"--only-with-token", "", "Show nothing without a token of scope read or operator."},
     Option{"--workers",
            "N",
@@ -259,6 +298,9 @@ constexpr std::array options{
     homogeneous_option,
     exclude_option,
     exclude_radius_option,
+    Option{"--title", "TEXT", "Title of the page.", "the database's name"},
+    preference(rare(
+        {"--left-hand", "", "Traffic keeps left: maps draw each direction on the left side."})),
     Option{"--access-log", "", "Print a line for each request, without addresses and positions."},
     preference(
         {"--jobs", "N", "Number of requests that are worked on at once.", default_jobs_words})};

@@ -32,6 +32,7 @@ struct ServedStore::Watch {
     std::uint64_t inode;
     Database database;
     std::int64_t data_version = -1;
+    std::int64_t maintenance = -1;
 };
 
 ServedStore::ServedStore(std::filesystem::path file,
@@ -40,7 +41,7 @@ ServedStore::ServedStore(std::filesystem::path file,
                          std::stop_token stop)
     : file_{std::move(file)}, audience_{audience}, stop_{std::move(stop)}, readers_(readers),
       operator_readers_(readers) {
-    readers_.front().reader = open(audience_); // refuses other files at once
+    static_cast<void>(open(audience_)); // refuses other files at once
     look();
 }
 
@@ -85,8 +86,16 @@ bool ServedStore::look() {
     if (watch_->data_version == data_version) {
         return false;
     }
-    shows_published_alone_ =
-        open(audience_).shows_published_alone(); // it may have become a crowd's
+    // Readers keep the settings, roads and rights that they were opened with. They are opened anew
+    // before the version changes, so that no answer of theirs is kept under its name.
+    const auto maintenance = moment_of(watch_->database).maintenance;
+    if (std::exchange(watch_->maintenance, maintenance) != maintenance) {
+        ++epoch_;
+    }
+    const bool shows_published_alone = open(audience_).shows_published_alone();
+    if (std::exchange(shows_published_alone_, shows_published_alone) != shows_published_alone) {
+        ++epoch_;
+    }
     auto versions = versions_now();
     watch_->data_version = data_version; // not before, as the above may throw
     const std::lock_guard lock{mutex_};

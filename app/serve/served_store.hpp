@@ -25,7 +25,8 @@ public:
                 std::stop_token stop);
     ~ServedStore();
 
-    /// Reader of a worker; opened when it is first needed, and again after the file was replaced.
+    /// Reader of a worker; opened when it is first needed, and again after the file was replaced,
+    /// maintained, or made a crowd's.
     /// \param audience  operator_: also what a crowd has not published, if the key is there
     StoreReader& reader(std::size_t worker, Audience audience = Audience::anyone);
 
@@ -65,7 +66,7 @@ private:
     };
     std::vector<Opened> readers_; ///< one for each worker, touched by it alone
     std::vector<Opened> operator_readers_;
-    std::atomic<std::size_t> epoch_ = 0; ///< of the file, grows as it is replaced
+    std::atomic<std::size_t> epoch_ = 0; ///< grows as readers are to be opened again
     std::unique_ptr<Watch> watch_;
     mutable std::mutex mutex_; ///< guards those below
     Versions versions_;

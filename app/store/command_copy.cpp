@@ -1,17 +1,22 @@
 #include "app/cli/server_commands.hpp"
 
 #include "app/database/lock_wait_messages.hpp"
+#include "app/database/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
+#include "storage/store/server/cut/region_cut.hpp"
+#include "storage/surveys/area_file.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace macadam {
@@ -36,6 +41,29 @@ void expect_file_and_server(const std::string& from, const std::string& to) {
     }
 }
 
+/// Region to be cut out; `std::nullopt`: the whole database is copied.
+std::optional<Region> parse_region(const Arguments& arguments, const std::string& from) {
+    Region region;
+    if (const auto degrees = arguments.numbers("--bbox", 4)) {
+        region.place.box = box_of(*degrees);
+        region.words = fmt::format("the box {}", *arguments.value("--bbox"));
+    }
+    if (const auto file = arguments.value("--area")) {
+        region.place.area = std::make_shared<const Area>(read_area(*file));
+        region.words += fmt::format("{}the area {}",
+                                    region.words.empty() ? "" : " within ",
+                                    std::filesystem::path{*file}.filename().string());
+    }
+    if (region.words.empty()) {
+        return std::nullopt;
+    }
+    if (!is_server_address(from)) {
+        throw UsageError{"--bbox and --area cut a region out of a database on a server, expected "
+                         "FROM to be postgresql://USER@HOST/DATABASE; copy the file there first"};
+    }
+    return region;
+}
+
 std::string json_of(const StoreCopy& copy) {
     JsonObject object;
     object.add("trips", static_cast<std::int64_t>(copy.trips))
@@ -48,10 +76,12 @@ void run_copy(const Arguments& arguments, const Console& console) {
     const auto& from = arguments.operand("FROM");
     const auto& to = arguments.operand("TO");
     expect_file_and_server(from, to);
-    const bool to_server = is_server_address(to);
+    const auto region = parse_region(arguments, from);
     const auto progress = console.progress("copying");
-    const auto copy = to_server ? copy_to_server(from, to, wait_policy_for(from, console), progress)
-                                : copy_from_server(from, to, progress);
+    const auto copy = region ? cut_from_server(from, *region, to, progress)
+                      : is_server_address(to)
+                          ? copy_to_server(from, to, wait_policy_for(from, console), progress)
+                          : copy_from_server(from, to, progress);
     warn_of_server(copy, to, console);
     if (arguments.flag("--json")) {
         print(json_of(copy));
@@ -72,7 +102,16 @@ void run_copy(const Arguments& arguments, const Console& console) {
 constexpr std::array operands{
     Operand{"FROM", "The road database: a .gpkg file, or postgresql://USER@HOST/DATABASE."},
     Operand{"TO", "The other one: an address of a database without one, or a new .gpkg file."}};
-constexpr std::array options{Option{"--json", "", "Print the result as one JSON object."}};
+constexpr std::array options{
+    Option{"--bbox",
+           "W,S,E,N",
+           "From a server: only the region in this box, in degrees; W > E crosses the "
+           "antimeridian."},
+    Option{"--area",
+           "FILE",
+           "From a server: only the region in the polygons of this file: GeoJSON, GeoPackage, "
+           "Shapefile, KML or another layer."},
+    Option{"--json", "", "Print the result as one JSON object."}};
 
 } // namespace
 
@@ -83,9 +122,15 @@ const Command copy_command{
         "Copies all content and verifies this with the digest ('macadam info --digest'), which "
         "is computed on both\nsides. All is one transaction: on any failure there is no copy. "
         "The server needs PostgreSQL 15 and PostGIS;\nQGIS shows its view macadam.roughness. "
-        "Passwords come from ~/.pgpass (docs/reference/postgresql.md).",
+        "Passwords come from ~/.pgpass (docs/reference/postgresql.md).\n\n"
+        "With --bbox or --area, TO is a database of that region: the roads that touch it, by "
+        "intervals of some 500 m,\nwith their passes and values, and the trips and cars that "
+        "drove there. The rest of their ways and the ways that\nmeet them come along without "
+        "values. Trips keep their total lengths.",
     .example = "  macadam copy roads.gpkg postgresql://me@db.example.org/roads\n"
-               "  macadam copy postgresql://me@db.example.org/roads back.gpkg",
+               "  macadam copy postgresql://me@db.example.org/roads back.gpkg\n"
+               "  macadam copy postgresql://me@db.example.org/roads town.gpkg --bbox "
+               "16.3,48.1,16.5,48.3",
     .operands = operands,
     .options = options,
     .run = run_copy};

@@ -1,6 +1,9 @@
 #include "app/cli/server_commands.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/server_store.hpp"
+#include "app/jobs/job_options.hpp"
 #include "estimator/common/error.hpp"
+#include "storage/jobs/server_tokens.hpp"
+#include "storage/postgres/server_address.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/text.hpp"
@@ -15,9 +18,11 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace macadam {
@@ -58,9 +63,22 @@ const std::string& name_in(const Arguments& arguments) {
     return name;
 }
 
-Database made_uploads(const std::filesystem::path& store) {
+/// Place of the tokens: beside a file, or on a server.
+using Place = std::variant<Database, ServerConnection>;
+
+Place made_place(const std::filesystem::path& store) {
+    if (is_server_address(store.string())) {
+        return opened_server(store.string());
+    }
     make_uploads_folder(store);
     return open_uploads(store);
+}
+
+/// Opens the place; `std::nullopt` for a file that has none so far.
+std::optional<Place> opened_place(const std::filesystem::path& store) {
+    return is_server_address(store.string()) || takes_uploads(store)
+               ? std::optional{made_place(store)}
+               : std::nullopt;
 }
 
 void create(const Arguments& arguments,
@@ -72,8 +90,8 @@ void create(const Arguments& arguments,
                             .scope = *scope_named(arguments.choice("--scope")),
                             .created_ms = now,
                             .expires_ms = expiry_in(arguments, now)};
-    auto uploads = made_uploads(store);
-    print(create_token(uploads, token) + "\n");
+    auto place = made_place(store);
+    print(std::visit([&](auto& uploads) { return create_token(uploads, token); }, place) + "\n");
     console.say(fmt::format("valid until {}; it cannot be shown again", utc_day(token.expires_ms)));
 }
 
@@ -90,19 +108,19 @@ void invite(const Arguments& arguments,
     const Invitation invitation{.owner = name_in(arguments),
                                 .expires_ms = now + days_to_accept * ms_per_day,
                                 .token_expires_ms = expiry_in(arguments, now)};
-    auto uploads = made_uploads(store);
-    print(fmt::format("{}/drive/#invite={}\n",
-                      url->substr(0, url->find_last_not_of('/') + 1),
-                      create_invitation(uploads, invitation)));
+    auto place = made_place(store);
+    print(fmt::format(
+        "{}/drive/#invite={}\n",
+        url->substr(0, url->find_last_not_of('/') + 1),
+        std::visit([&](auto& uploads) { return create_invitation(uploads, invitation); }, place)));
     console.say(fmt::format("for one phone, until {}; it cannot be shown again",
                             utc_day(invitation.expires_ms)));
 }
 
 void list(const Arguments& arguments, const std::filesystem::path& store) {
     std::vector<AccessToken> tokens;
-    if (takes_uploads(store)) {
-        auto uploads = open_uploads(store);
-        tokens = all_tokens(uploads);
+    if (auto place = opened_place(store)) {
+        tokens = std::visit([](auto& uploads) { return all_tokens(uploads); }, *place);
     }
     if (arguments.flag("--json")) {
         std::vector<std::string> items;
@@ -135,9 +153,8 @@ void revoke(const Arguments& arguments,
             const Console& console) {
     const auto& name = name_in(arguments);
     std::size_t count = 0;
-    if (takes_uploads(store)) {
-        auto uploads = open_uploads(store);
-        count = revoke_tokens(uploads, name);
+    if (auto place = opened_place(store)) {
+        count = std::visit([&](auto& uploads) { return revoke_tokens(uploads, name); }, *place);
     }
     if (count == 0) {
         throw InputError{fmt::format("{}: has no token {}, expected an id or a name of 'macadam "
@@ -150,8 +167,10 @@ void revoke(const Arguments& arguments,
 
 void run_token(const Arguments& arguments, const Console& console) {
     const auto& action = arguments.operand("ACTION");
-    const auto store = store_file(arguments);
-    static_cast<void>(StoreReader::open(store)); // refuses other files
+    const auto store = file_or_server(arguments);
+    if (!is_server_address(store.string())) {
+        static_cast<void>(StoreReader::open(store)); // refuses other files
+    }
     if (action == "create") {
         create(arguments, store, console);
     } else if (action == "invite") {
@@ -170,7 +189,7 @@ constexpr std::array operands{
     Operand{.name = "ACTION",
             .help = "create, invite, list or revoke.",
             .choices = "create|invite|list|revoke"},
-    store_operand,
+    import_operand,
     Operand{.name = "NAME",
             .help = "Whose token it is; tokens of one name share their trips. 'revoke' also takes "
                     "an id.",
@@ -194,7 +213,7 @@ const Command token_command{
     .about = "Prints a new token, lists the tokens, or revokes those of a name; a running server "
              "follows at once. A token has\n"
              "256 random bits, and only its SHA-256 is kept, in the folder STORE.uploads/ beside "
-             "the database. Clients send it\n"
+             "the database, or on its server. Clients send it\n"
              "as 'Authorization: Bearer TOKEN', or as the password of HTTP Basic with any user "
              "name.\n"
              "'invite' prints the address of the recorder with an invitation, by which one phone "

@@ -133,8 +133,9 @@ const Command worker_command{
              "its own, unless --workers 0 is given.\n"
              "For postgresql://...: takes logs of 'macadam submit', on any number of machines. "
              "Each log counts once, whatever is\n"
-             "killed; one at which its worker ended, or that could not be fetched, is tried five "
-             "times ('macadam status').",
+             "killed; one at which its worker ended, or whose stored bytes are missing or "
+             "damaged, is tried five times ('macadam\n"
+             "status'). While the object store cannot be reached, logs wait.",
     .example = "  macadam worker roads.gpkg --vehicles cars/\n"
                "  macadam worker roads.gpkg --once\n"
                "  macadam worker postgresql://me@db.example.org/roads --jobs 4",

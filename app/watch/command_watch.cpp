@@ -88,8 +88,8 @@ void run_watch(const Arguments& arguments, const Console& console) {
                                      "appear",
                                      folder.string())};
     }
-    static_cast<void>(VehicleChoice{arguments});         // refuses bad values at once,
-    static_cast<void>(opened_for_import(file, console)); // as well as a bad database
+    static_cast<void>(VehicleChoice{arguments});                 // refuses bad values at once,
+    warn_of_importer(opened_for_import(file, console), console); // as well as a bad database
 
     FolderChanges changes{folder};
     SettledTrips trips{folder, {.mapping = options.mapping, .max_files = options.max_members}};

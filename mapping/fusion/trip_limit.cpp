@@ -3,7 +3,6 @@
 #include "mapping/fusion/utc_month.hpp"
 
 #include <limits>
-#include <optional>
 
 namespace macadam {
 namespace {
@@ -16,7 +15,7 @@ std::int64_t month_of(const std::optional<std::int64_t>& utc_ms) {
 } // namespace
 
 bool TripLimit::admits(const FusionInput& pass) {
-    if (!is_limited() || pass.reference) {
+    if (!is_limited() || pass.reference || pass.vehicle == unknown_vehicle_) {
         return true;
     }
     auto& trips = trips_[{pass.vehicle, month_of(pass.utc_ms)}];

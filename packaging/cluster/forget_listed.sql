@@ -28,6 +28,7 @@ DELETE FROM macadam.drive WHERE trip IN (SELECT id FROM leaving);
 DELETE FROM macadam.event WHERE trip IN (SELECT id FROM leaving);
 DELETE FROM macadam.event_search WHERE trip IN (SELECT id FROM leaving);
 DELETE FROM macadam.row_reason WHERE trip IN (SELECT id FROM leaving);
+DELETE FROM macadam.published_pending WHERE trip IN (SELECT id FROM leaving);
 DELETE FROM macadam.trip WHERE id IN (SELECT id FROM leaving);
 DELETE FROM macadam.calibration WHERE vehicle NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
 DELETE FROM macadam.calibration_period WHERE vehicle NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);

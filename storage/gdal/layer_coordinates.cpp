@@ -17,6 +17,13 @@ namespace {
 /// points.
 constexpr std::uintmax_t max_points_per_byte = 4;
 
+/// Rounds to 1e-9 degrees (0.1 mm). PROJ calls the sines of libm, whose last bits depend on the
+/// processor; networks, and by them the digest, must not.
+double rounded(double deg) {
+    constexpr double per_degree = 1e9;
+    return std::round(deg * per_degree) / per_degree;
+}
+
 /// Maximum absolute coordinate in the units of any map. GDAL wraps an x of spherical Mercator one
 /// revolution at a time, which would never end for huge values.
 constexpr double farthest = 1e10;
@@ -61,6 +68,10 @@ std::vector<GeoPoint> LayerCoordinates::places_of(const OGRSimpleCurve& line) {
         const bool is_near = std::abs(lon_deg) <= farthest && std::abs(lat_deg) <= farthest;
         if (to_wgs84_ && !(is_near && to_wgs84_->Transform(1, &lon_deg, &lat_deg))) {
             fail(fmt::format("{}, {} cannot be converted to degrees", line.getX(i), line.getY(i)));
+        }
+        if (to_wgs84_) {
+            lon_deg = rounded(lon_deg);
+            lat_deg = rounded(lat_deg);
         }
         if (!(std::abs(lat_deg) <= 90 && std::abs(lon_deg) <= 180)) {
             fail(fmt::format(

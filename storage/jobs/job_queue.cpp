@@ -1,5 +1,6 @@
 #include "storage/jobs/job_queue.hpp"
 
+#include "estimator/common/error.hpp"
 #include "estimator/common/exact_number.hpp"
 
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ constexpr const char* removing_old_jobs =
     "DELETE FROM macadam.job WHERE sha256 IN (SELECT sha256 FROM macadam.job"
     " WHERE finished_at < now() - interval '400 days' AND NOT has_object"
     " AND state IN ('imported', 'known', 'outside', 'refused')"
+    " AND (owner IS NULL OR state <> 'imported')" // who sent it may delete it
     " ORDER BY finished_at LIMIT $1 FOR UPDATE SKIP LOCKED)";
 
 constexpr const char* job_columns = "sha256, suffix, bytes, attempts";
@@ -45,7 +47,8 @@ std::vector<Job> jobs_in(const std::vector<ServerRow>& rows) {
         jobs.push_back({.sha256 = row[0].value_or(""),
                         .suffix = row[1].value_or(""),
                         .bytes = number_in(row[2]),
-                        .attempts = static_cast<int>(number_in(row[3]))});
+                        .attempts = static_cast<int>(number_in(row[3])),
+                        .was_begun = row.size() > 4 && row[4] == "t"});
     }
     return jobs;
 }
@@ -87,14 +90,15 @@ std::int64_t attempts_of_next_retry(ServerConnection& server) {
 std::vector<Job>
 take(ServerConnection& server, const JobTaker& taker, std::size_t at_most, std::int64_t attempts) {
     return jobs_in(server.rows(
-        fmt::format("WITH next AS (SELECT sha256 FROM macadam.job WHERE {} AND attempts {}"
+        fmt::format("WITH next AS (SELECT sha256, worker IS NOT NULL AS was_begun"
+                    " FROM macadam.job WHERE {} AND attempts {}"
                     " ORDER BY number LIMIT $3 FOR UPDATE SKIP LOCKED)"
                     " UPDATE macadam.job SET state = 'working', attempts = attempts + 1,"
                     " worker = $1, lease_until = now() + $2::interval"
                     " FROM next WHERE job.sha256 = next.sha256 RETURNING job.{}",
                     is_free,
                     attempts == 0 ? "= 0" : fmt::format("> 0 AND attempts = {}", attempts),
-                    "sha256, job.suffix, job.bytes, job.attempts"),
+                    "sha256, job.suffix, job.bytes, job.attempts, was_begun"),
         {taker.worker, fmt::format("{} s", taker.lease.count()), std::to_string(at_most)}));
 }
 
@@ -117,6 +121,25 @@ std::vector<std::optional<std::string>> ours(const JobTaker& taker, const Job& j
     return {job.sha256, taker.worker, std::to_string(job.attempts)};
 }
 
+/// Shares the location of the object store until the end of the transaction.
+/// \throws InputError  if it is another one.
+void expect_objects_in(ServerConnection& server, const std::string& location) {
+    const auto rows =
+        server.rows("SELECT value FROM macadam.work_setting WHERE key = 'objects' FOR SHARE");
+    if (rows.empty() || rows[0][0] != location) {
+        throw InputError{fmt::format("{}: somebody else has just submitted to {}, where workers "
+                                     "look for all logs; expected {}: submit to the same store",
+                                     server.address(),
+                                     rows.empty() ? "no store" : rows[0][0].value_or(""),
+                                     location)};
+    }
+}
+
+/// Changes of jobs that are tried again.
+constexpr const char* queued_again = "state = 'queued', attempts = 0, reason = '',"
+                                     " not_before = now(), worker = NULL, finished_at = NULL,"
+                                     " has_object = true";
+
 } // namespace
 
 std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
@@ -130,25 +153,40 @@ std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
     return states;
 }
 
-std::vector<Submission> submit_logs(ServerConnection& server, std::span<const Job> logs) {
+void keep_objects_of(ServerConnection& server, std::span<const Job> logs) {
+    server.rows("WITH done AS (SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
+                " AND state IN ('outside', 'refused') ORDER BY sha256 FOR UPDATE)"
+                " UPDATE macadam.job SET has_object = true, not_before = now() + interval '1 day'"
+                " FROM done WHERE job.sha256 = done.sha256",
+                {hashes_of(logs)});
+}
+
+std::vector<Submission> submit_logs(ServerConnection& server,
+                                    std::span<const Job> logs,
+                                    const std::string& objects,
+                                    const std::string& owner) {
     ServerTransaction one{server};
+    if (!objects.empty()) {
+        expect_objects_in(server, objects);
+    }
     const auto before = known_states(server, logs, "FOR UPDATE");
     std::map<std::string, std::int64_t> submissions;
     // A known row is written, too: then the commit waits for the standby, which may lack it.
     const auto rows = server.rows(
-        "INSERT INTO macadam.job (sha256, suffix, bytes)"
-        " SELECT * FROM unnest($1::text[], $2::text[], $3::bigint[]) AS log (sha256) ORDER BY 1"
+        "INSERT INTO macadam.job (sha256, suffix, bytes, owner) SELECT log.*, nullif($4::text, '')"
+        " FROM unnest($1::text[], $2::text[], $3::bigint[]) AS log (sha256) ORDER BY 1"
         " ON CONFLICT (sha256) DO UPDATE SET submissions = job.submissions + 1"
         " RETURNING sha256, submissions",
         {hashes_of(logs),
          array_of(logs, [](const Job& log) { return log.suffix; }),
-         array_of(logs, [](const Job& log) { return log.bytes; })});
+         array_of(logs, [](const Job& log) { return log.bytes; }),
+         owner});
     for (const auto& row : rows) {
         submissions[row[0].value_or("")] = number_in(row[1]);
     }
-    server.rows("UPDATE macadam.job SET state = 'queued', attempts = 0, reason = '',"
-                " not_before = now(), worker = NULL, finished_at = NULL, has_object = true"
-                " WHERE sha256 = ANY($1) AND state IN ('outside', 'refused', 'parked')",
+    server.rows(fmt::format("UPDATE macadam.job SET {} WHERE sha256 = ANY($1)"
+                            " AND state IN ('outside', 'refused', 'parked')",
+                            queued_again),
                 {hashes_of(logs)});
     one.commit();
     std::vector<Submission> results;
@@ -160,6 +198,16 @@ std::vector<Submission> submit_logs(ServerConnection& server, std::span<const Jo
                                                          : Submission::known);
     }
     return results;
+}
+
+std::size_t submit_parked_logs(ServerConnection& server) {
+    return server
+        .rows(fmt::format("WITH parked AS (SELECT sha256 FROM macadam.job WHERE state = 'parked'"
+                          " ORDER BY sha256 FOR UPDATE)"
+                          " UPDATE macadam.job SET {} FROM parked"
+                          " WHERE job.sha256 = parked.sha256 RETURNING 1",
+                          queued_again))
+        .size();
 }
 
 std::vector<Job> take_jobs(ServerConnection& server,
@@ -204,9 +252,16 @@ finish_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job
                             is_ours + " RETURNING 1",
                         values);
         if (!ended.empty() && !end.trips.empty()) {
-            server.rows("INSERT INTO macadam.job_trip (trip, job) SELECT unnest($1::text[]), $2"
-                        " ON CONFLICT DO NOTHING",
-                        {fmt::format("{{{}}}", fmt::join(end.trips, ",")), end.job.sha256});
+            // One log alone has imported a trip, whoever says so later.
+            server.rows("INSERT INTO macadam.job_trip (trip, job, imported)"
+                        " SELECT DISTINCT trip, $2::text, trip = ANY($3::text[]) AND NOT EXISTS"
+                        " (SELECT FROM macadam.job_trip AS other WHERE other.trip = log.trip"
+                        " AND other.job <> $2 AND other.imported)"
+                        " FROM unnest($1::text[]) AS log (trip) ON CONFLICT (trip, job)"
+                        " DO UPDATE SET imported = job_trip.imported OR excluded.imported",
+                        {fmt::format("{{{}}}", fmt::join(end.trips, ",")),
+                         end.job.sha256,
+                         fmt::format("{{{}}}", fmt::join(end.own, ","))});
         }
         count += ended.size();
     }
@@ -230,12 +285,17 @@ void fail_job(ServerConnection& server,
                 values);
 }
 
-void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job> jobs) {
+void put_back_jobs(ServerConnection& server,
+                   const JobTaker& taker,
+                   std::span<const Job> jobs,
+                   std::chrono::seconds pause) {
     for (const auto& job : jobs) {
+        auto values = ours(taker, job);
+        values.emplace_back(fmt::format("{} s", pause.count()));
         server.rows(std::string{"UPDATE macadam.job SET state = 'queued', attempts = attempts - 1,"
-                                " lease_until = NULL"} +
+                                " not_before = now() + $4::interval, lease_until = NULL"} +
                         is_ours,
-                    ours(taker, job));
+                    values);
     }
 }
 
@@ -248,7 +308,9 @@ void put_back_all(ServerConnection& server, const JobTaker& taker) {
 std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit, ErasedLogs which) {
     return jobs_in(
         server.rows(fmt::format("SELECT {} FROM macadam.job WHERE has_object"
-                                " AND state IN ('imported', 'known'{}) {} ORDER BY number LIMIT $1",
+                                " AND not_before <= now()"
+                                " AND state IN ('imported', 'known'{}) {} ORDER BY number LIMIT $1"
+                                " FOR UPDATE SKIP LOCKED",
                                 job_columns,
                                 which == ErasedLogs::worked_out ? ", 'outside', 'refused'" : "",
                                 which == ErasedLogs::forgotten ? was_forgotten : ""),
@@ -268,13 +330,22 @@ void remove_old_jobs(ServerConnection& server, std::size_t limit) {
     server.rows(removing_old_jobs, {std::to_string(limit)});
 }
 
+void sum_job_counts(ServerConnection& server) {
+    server.run("WITH summed AS (DELETE FROM macadam.job_count WHERE ctid = ANY(ARRAY("
+               "SELECT ctid FROM macadam.job_count"
+               " WHERE (SELECT count(*) FROM macadam.job_count) > 100 FOR UPDATE SKIP LOCKED))"
+               " RETURNING state, logs)"
+               " INSERT INTO macadam.job_count SELECT state, sum(logs)::bigint FROM summed"
+               " GROUP BY state");
+}
+
 std::vector<Job> end_forgotten_jobs(ServerConnection& server) {
     // The mark is that of forgotten_mark() (storage/store/rows/known_trips.hpp).
     constexpr const char* mark =
         "encode(sha256(convert_to('macadam forgot ' || {}, 'UTF8')), 'hex')";
     return jobs_in(server.rows(fmt::format(
         "UPDATE macadam.job SET state = 'known', finished_at = now(), lease_until = NULL,"
-        " worker = NULL, has_object = true, reason = '{}' WHERE sha256 IN"
+        " worker = NULL, has_object = true, not_before = now(), reason = '{}' WHERE sha256 IN"
         " (SELECT job FROM macadam.job_trip JOIN macadam.forgotten ON mark = {}"
         " UNION SELECT sha256 FROM macadam.job JOIN macadam.forgotten ON mark = {})"
         " RETURNING {}",

@@ -21,7 +21,8 @@ struct Job {
     std::string sha256; ///< of the bytes
     std::string suffix; ///< of the file, by which the format is known: ".trip.csv"
     std::int64_t bytes = 0;
-    int attempts = 0; ///< times that a worker has begun it
+    int attempts = 0;       ///< times that a worker has begun it
+    bool was_begun = false; ///< before this attempt, also by one that does not count
 };
 
 /// Attempts after which a job is parked.
@@ -37,13 +38,26 @@ enum class Submission : std::uint8_t {
 std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
                                                        std::span<const Job> logs);
 
+/// Keeps workers from erasing the objects of logs that are done, for a day: the caller stores them
+/// anew, and submits the logs. Waits for who erases one just now.
+void keep_objects_of(ServerConnection& server, std::span<const Job> logs);
+
 /// Queues logs whose objects are stored, in one transaction. A standby has them, too, when this
 /// returns, also those that are known.
 /// \param logs  without repetitions
+/// \param objects  location of their objects; "" = that of the workers, whichever it is
+/// \param owner    who sent them by a token; "" = they are submitted
 /// \returns for each what it was.
 ///
-/// \throws InputError  also if the commit is in doubt: then submit them again.
-std::vector<Submission> submit_logs(ServerConnection& server, std::span<const Job> logs);
+/// \throws InputError  if workers look for them elsewhere; also if the commit is in doubt: then
+///                     submit them again.
+std::vector<Submission> submit_logs(ServerConnection& server,
+                                    std::span<const Job> logs,
+                                    const std::string& objects = {},
+                                    const std::string& owner = {});
+
+/// Queues all parked logs again, whose objects are still stored. \returns their number.
+std::size_t submit_parked_logs(ServerConnection& server);
 
 /// Worker that takes jobs.
 struct JobTaker {
@@ -67,6 +81,7 @@ struct JobEnd {
     std::string reason{};
     std::int64_t passes = 0;
     std::vector<std::string> trips{}; ///< SHA-256 of those of its trips that are stored
+    std::vector<std::string> own{};   ///< of these, imported from it, now or by an earlier attempt
 };
 
 /// Records ends, in one transaction. Those of jobs that another worker has taken meanwhile are left
@@ -82,7 +97,11 @@ void fail_job(ServerConnection& server,
               const std::string& reason);
 
 /// Gives jobs back that were not tried: these attempts do not count.
-void put_back_jobs(ServerConnection& server, const JobTaker& taker, std::span<const Job> jobs);
+/// \param pause  before which nobody takes them again
+void put_back_jobs(ServerConnection& server,
+                   const JobTaker& taker,
+                   std::span<const Job> jobs,
+                   std::chrono::seconds pause = {});
 /// The same for all jobs of a worker that works on none: it could not give them back as its
 /// connection broke, and its heartbeat, which has another, keeps others from taking them.
 void put_back_all(ServerConnection& server, const JobTaker& taker);
@@ -94,7 +113,9 @@ enum class ErasedLogs : std::uint8_t {
     forgotten   ///< those with a trip that was permanently deleted
 };
 
-/// Jobs that are done and whose objects are still stored, at most `limit`.
+/// Jobs that are done and whose objects are still stored, at most `limit`. Locks them until the end
+/// of the transaction, in which the caller is to note that the objects are gone, and then to remove
+/// them: who submits such a log again waits for that.
 std::vector<Job> jobs_to_erase(ServerConnection& server, std::size_t limit, ErasedLogs which);
 /// Notes that their objects are gone.
 void note_erased(ServerConnection& server, std::span<const Job> jobs);
@@ -102,6 +123,9 @@ void note_erased(ServerConnection& server, std::span<const Job> jobs);
 /// Removes jobs that were done over 400 days ago and whose objects are gone, at most `limit`. A log
 /// that is submitted again then is worked out again, and found to be known.
 void remove_old_jobs(ServerConnection& server, std::size_t limit);
+
+/// Adds up the rows by which finished logs are counted, once there are many.
+void sum_job_counts(ServerConnection& server);
 
 /// Ends jobs of logs that are, or hold, a trip which was permanently deleted, whatever they wait
 /// for. \returns them; their objects are to be erased.

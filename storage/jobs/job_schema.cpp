@@ -74,7 +74,6 @@ CREATE TABLE macadam.work_setting (
     value text NOT NULL
 );
 COMMENT ON TABLE macadam.work_setting IS 'What all workers have in common';
-COMMENT ON COLUMN macadam.work_setting.key IS 'objects: the object store; results_version: of the workers so far; network: SHA-256 of the roads that they match to';
 COMMENT ON COLUMN macadam.work_setting.value IS 'Its value';
 )sql";
 
@@ -91,6 +90,46 @@ COMMENT ON COLUMN macadam.job_trip.job IS 'SHA-256 of the log';
 COMMENT ON INDEX macadam.job_trip_job IS 'Trips of a log, which go with it';
 )sql";
 
+// Finished logs are counted as they finish: who ends jobs adds rows of his own, so that nobody
+// waits for another. The other states are counted by job_open.
+constexpr const char* counts = R"sql(
+CREATE INDEX IF NOT EXISTS job_open ON macadam.job (state, number DESC) WHERE state IN ('queued', 'working', 'parked', 'refused');
+CREATE INDEX IF NOT EXISTS job_submitted ON macadam.job (submitted_at);
+COMMENT ON INDEX macadam.job_open IS 'Logs that wait, or that somebody may look at, in order';
+COMMENT ON INDEX macadam.job_submitted IS 'Logs by the time of their submission, for rates';
+COMMENT ON COLUMN macadam.job.not_before IS 'Next attempt, or removal from the object store, not earlier';
+COMMENT ON COLUMN macadam.work_setting.key IS 'objects: the object store; results_version: of the workers so far';
+CREATE TABLE IF NOT EXISTS macadam.job_count (
+    state text NOT NULL,
+    logs bigint NOT NULL
+);
+COMMENT ON TABLE macadam.job_count IS 'Numbers of logs that are imported, known or outside: the sums of the rows of each state';
+COMMENT ON COLUMN macadam.job_count.state IS 'As in table job';
+COMMENT ON COLUMN macadam.job_count.logs IS 'Logs that came to this state; negative: that left it';
+CREATE OR REPLACE FUNCTION macadam.count_jobs() RETURNS trigger
+LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    IF TG_OP = 'DELETE' THEN
+        INSERT INTO macadam.job_count SELECT state, -count(*) FROM old_job
+            WHERE state IN ('imported', 'known', 'outside') GROUP BY state;
+    ELSE
+        INSERT INTO macadam.job_count SELECT state, sum(logs) FROM
+            (SELECT state, 1 AS logs FROM new_job UNION ALL SELECT state, -1 FROM old_job) AS change
+            WHERE state IN ('imported', 'known', 'outside') GROUP BY state HAVING sum(logs) <> 0;
+    END IF;
+    RETURN NULL;
+END $$;
+REVOKE ALL ON FUNCTION macadam.count_jobs() FROM PUBLIC;
+COMMENT ON FUNCTION macadam.count_jobs() IS 'Counts logs that come to a final state, or leave it';
+CREATE OR REPLACE TRIGGER count_updated AFTER UPDATE ON macadam.job
+    REFERENCING OLD TABLE AS old_job NEW TABLE AS new_job FOR EACH STATEMENT EXECUTE FUNCTION macadam.count_jobs();
+CREATE OR REPLACE TRIGGER count_deleted AFTER DELETE ON macadam.job
+    REFERENCING OLD TABLE AS old_job FOR EACH STATEMENT EXECUTE FUNCTION macadam.count_jobs();
+DELETE FROM macadam.job_count;
+INSERT INTO macadam.job_count SELECT state, count(*) FROM macadam.job
+    WHERE state IN ('imported', 'known', 'outside') GROUP BY state;
+)sql";
+
 } // namespace
 
 std::string job_schema() {
@@ -100,6 +139,11 @@ std::string job_schema() {
                     {"macadam_importer", "macadam_operator"}) +
            granting("USAGE ON ALL SEQUENCES IN SCHEMA macadam",
                     {"macadam_importer", "macadam_operator"});
+}
+
+std::string job_count_schema() {
+    return counts + granting("SELECT, INSERT, UPDATE, DELETE ON macadam.job_count",
+                             {"macadam_importer", "macadam_operator"});
 }
 
 std::string job_trip_schema() {

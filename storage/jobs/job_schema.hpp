@@ -10,4 +10,7 @@ std::string job_schema();
 /// Statements of migration 5: which trips a log held, so that it is forgotten with them.
 std::string job_trip_schema();
 
+/// Statements of migration 10: counts of logs without reading all that were ever submitted.
+std::string job_count_schema();
+
 } // namespace macadam

@@ -5,6 +5,9 @@
 #include "storage/text/text.hpp"
 #include "storage/uploads/upload_state.hpp"
 
+#include <algorithm>
+#include <string>
+
 namespace macadam {
 namespace {
 
@@ -20,12 +23,25 @@ void add_counts(WorkStatus& status, ServerConnection& server) {
     for (const auto state : all_upload_states) {
         status.logs[std::string{name_of(state)}] = 0;
     }
-    for (const auto& row : server.rows("SELECT state, count(*) FROM macadam.job GROUP BY state")) {
+    for (const auto& row :
+         server.rows("SELECT state, sum(logs) FROM macadam.job_count GROUP BY state")) {
         status.logs[row[0].value_or("")] = integer_in(row[1]);
     }
-    const auto waiting = server.rows("SELECT extract(epoch FROM now() - min(submitted_at))"
-                                     " FROM macadam.job WHERE state IN ('queued', 'working')");
-    status.oldest_s = real_in(waiting.at(0)[0]);
+    for (const auto& row :
+         server.rows("SELECT state, count(*), extract(epoch FROM now() - min(submitted_at))"
+                     " FROM macadam.job WHERE state IN ('queued', 'working', 'parked', 'refused')"
+                     " GROUP BY state")) {
+        const auto state = state_named(row[0].value_or(""));
+        status.logs[std::string{name_of(state)}] = integer_in(row[1]);
+        if (is_waiting(state)) {
+            status.oldest_s = std::max(status.oldest_s, real_in(row[2]));
+        }
+    }
+    const auto accepted = server.rows(
+        "SELECT count(*) FILTER (WHERE submitted_at > now() - interval '1 min'), count(*)"
+        " FROM macadam.job WHERE submitted_at > now() - interval '1 hour'");
+    status.accepted_in_minute = integer_in(accepted.at(0)[0]);
+    status.accepted_in_hour = integer_in(accepted.at(0)[1]);
     const auto rates = server.rows(
         "SELECT count(*) FILTER (WHERE finished_at > now() - interval '1 min'), count(*),"
         " sum(passes) FROM macadam.job WHERE finished_at > now() - interval '1 hour'");
@@ -37,15 +53,16 @@ void add_counts(WorkStatus& status, ServerConnection& server) {
 
 void add_workers(WorkStatus& status, ServerConnection& server) {
     for (const auto& row : server.rows(
-             "SELECT name, seen_at > now() - lease_s * interval '1 s', jobs,"
+             "SELECT name, seen_at > now() - lease_s * interval '1 s', results_version, jobs,"
              " (SELECT count(*) FROM macadam.job WHERE state = 'working' AND job.worker = name),"
              " finished, extract(epoch FROM now() - seen_at) FROM macadam.worker ORDER BY name")) {
         status.workers.push_back({.name = row[0].value_or(""),
                                   .is_alive = row[1] == "t",
-                                  .jobs = integer_in(row[2]),
-                                  .working = integer_in(row[3]),
-                                  .finished = integer_in(row[4]),
-                                  .seen_s = real_in(row[5])});
+                                  .results_version = integer_in(row[2]),
+                                  .jobs = integer_in(row[3]),
+                                  .working = integer_in(row[4]),
+                                  .finished = integer_in(row[5]),
+                                  .seen_s = real_in(row[6])});
     }
 }
 
@@ -64,6 +81,10 @@ void add_failed(WorkStatus& status, ServerConnection& server, std::size_t most) 
 }
 
 } // namespace
+
+bool may_read_work(ServerConnection& server) {
+    return server.number("SELECT has_table_privilege('macadam.job', 'SELECT')::integer") != 0;
+}
 
 WorkStatus work_status(ServerConnection& server, std::size_t max_failed) {
     const ServerTransaction one_moment{server, true};

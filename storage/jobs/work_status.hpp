@@ -14,6 +14,7 @@ namespace macadam {
 struct WorkerStatus {
     std::string name;
     bool is_alive = false;
+    std::int64_t results_version = 0;
     std::int64_t jobs = 0;     ///< trips at the same time
     std::int64_t working = 0;  ///< logs that it has taken
     std::int64_t finished = 0; ///< logs
@@ -33,6 +34,7 @@ struct FailedLog {
 struct WorkStatus {
     std::map<std::string, std::int64_t> logs; ///< by state, all of them
     double oldest_s = 0;                      ///< since the submission of the oldest log that waits
+    std::int64_t accepted_in_minute = 0, accepted_in_hour = 0; ///< logs submitted first
     std::int64_t finished_in_minute = 0, finished_in_hour = 0; ///< logs
     std::int64_t passes_in_hour = 0;
     std::int64_t chunks_to_fuse = 0;
@@ -40,6 +42,9 @@ struct WorkStatus {
     std::vector<WorkerStatus> workers;
     std::vector<FailedLog> failed; ///< the latest parked, then the latest refused
 };
+
+/// Tests whether the role may read the queue, which readers of roads may not.
+bool may_read_work(ServerConnection& server);
 
 /// \param max_failed  length of WorkStatus::failed
 WorkStatus work_status(ServerConnection& server, std::size_t max_failed);

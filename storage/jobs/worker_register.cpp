@@ -30,6 +30,18 @@ std::string lease_of(const JobTaker& taker) {
 constexpr const char* version_key = "results_version";
 constexpr const char* objects_key = "objects";
 
+[[noreturn]] void refuse_other_results(const ServerConnection& server,
+                                       const std::string& theirs,
+                                       int ours,
+                                       const std::string& what_to_do) {
+    throw OtherResults{fmt::format("{}: its workers compute results of version {}, this program "
+                                   "those of version {}: values of both must not mix; {}",
+                                   server.address(),
+                                   theirs,
+                                   ours,
+                                   what_to_do)};
+}
+
 } // namespace
 
 std::string new_worker_name() {
@@ -40,6 +52,20 @@ std::string new_worker_name() {
     return fmt::format("{}/{}/{:08x}", host.data(), ::getpid(), std::random_device{}());
 }
 
+void expect_results_version(const ServerConnection& server, const std::string& theirs, int ours) {
+    if (!theirs.empty() && theirs != std::to_string(ours)) {
+        refuse_other_results(server,
+                             theirs,
+                             ours,
+                             "expected the same program on all machines; a newer one decides with "
+                             "'macadam worker --take-over'");
+    }
+}
+
+void expect_results_version(ServerConnection& server, int ours) {
+    expect_results_version(server, setting(server, version_key).value_or(""), ours);
+}
+
 void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes_over) {
     const auto ours = std::to_string(entry.results_version);
     ServerTransaction one{server};
@@ -48,16 +74,14 @@ void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes
     const auto others = server.number(
         "SELECT count(*) FROM macadam.worker WHERE seen_at > now() - lease_s * interval '1 s'");
     if (theirs && *theirs != ours && (!takes_over || others > 0)) {
-        throw InputError{fmt::format(
-            "{}: its workers compute results of version {}, this program those of version {}: "
-            "values of both must not mix; {}",
-            server.address(),
+        refuse_other_results(
+            server,
             *theirs,
-            ours,
+            entry.results_version,
             others > 0 ? fmt::format("{} still at work, expected the same program on all machines",
                                      others == 1 ? "one is" : fmt::format("{} are", others))
                        : "install the same program on all machines, or let this one decide with "
-                         "--take-over")};
+                         "--take-over");
     }
     put_setting(server, version_key, ours);
     server.run("DELETE FROM macadam.worker WHERE seen_at < now() - interval '1 day'");
@@ -87,13 +111,17 @@ std::optional<std::string> objects_location(ServerConnection& server) {
 }
 
 void put_objects_location(ServerConnection& server, const std::string& location) {
-    const auto last = objects_location(server);
-    if (last == location) {
+    if (objects_location(server) == location) {
         return;
     }
+    ServerTransaction one{server};
+    server.run("LOCK TABLE macadam.work_setting IN SHARE ROW EXCLUSIVE MODE"); // one at a time
+    const auto row = server.rows("SELECT value FROM macadam.work_setting WHERE key = $1 FOR UPDATE",
+                                 {objects_key}); // submit_logs() shares it
+    const auto last = row.empty() ? std::nullopt : row[0][0];
     const auto waiting =
         server.number("SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')");
-    if (last && waiting > 0) {
+    if (last && *last != location && waiting > 0) {
         throw InputError{fmt::format("{}: {} in {}, where workers look for all logs; submit to it, "
                                      "or wait until nothing waits",
                                      server.address(),
@@ -102,6 +130,7 @@ void put_objects_location(ServerConnection& server, const std::string& location)
                                      *last)};
     }
     put_setting(server, objects_key, location);
+    one.commit();
 }
 
 } // namespace macadam

@@ -16,13 +16,28 @@ struct WorkerEntry {
     std::size_t jobs = 1;    ///< trips at the same time
 };
 
+/// The workers of a database compute results of another version.
+struct OtherResults : InputError {
+    using InputError::InputError;
+};
+
+/// Asks for the version of results that workers of a database decided on: a key and a value, as of
+/// table meta; no row before the first one.
+inline constexpr const char* results_version_row =
+    "SELECT key, value FROM macadam.work_setting WHERE key = 'results_version'";
+
+/// \param theirs  that version; "" before the first worker, which fits all
+/// \throws OtherResults  if it is not `ours`.
+void expect_results_version(const ServerConnection& server, const std::string& theirs, int ours);
+void expect_results_version(ServerConnection& server, int ours);
+
 /// Name for a worker that begins: machine, process and a random number.
 std::string new_worker_name();
 
 /// Registers a worker. The first one decides with which version of results this database is filled;
 /// `takes_over` changes that while no other worker lives.
 ///
-/// \throws InputError  if workers of another version of results fill the database.
+/// \throws OtherResults  if workers of another version fill the database.
 void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes_over);
 
 /// Tells that a worker lives, and renews the leases of its jobs.
@@ -34,6 +49,7 @@ void end_worker(ServerConnection& server, const std::string& name);
 
 /// Location of the object store, as it was submitted to last; `std::nullopt` before that.
 std::optional<std::string> objects_location(ServerConnection& server);
+/// Waits for those who submit just now.
 /// \throws InputError  if it differs from the last one, where logs still wait.
 void put_objects_location(ServerConnection& server, const std::string& location);
 

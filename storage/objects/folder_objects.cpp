@@ -81,7 +81,7 @@ public:
         const auto path = path_of(object.sha256);
         if (std::error_code unknown; !fs::exists(path, unknown) && !unknown) {
             expect_in_place();
-            throw InputError{
+            throw UnusableObject{
                 fmt::format("{}: object {} is missing", root_.string(), object.sha256)};
         }
         FetchedFile to{object, file};

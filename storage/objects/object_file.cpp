@@ -72,7 +72,7 @@ bool FetchedFile::add(std::string_view bytes) {
 
 void FetchedFile::keep(const std::string& store) {
     if (bytes_ != object_.bytes || hash_.hex() != object_.sha256) {
-        throw InputError{fmt::format(
+        throw UnusableObject{fmt::format(
             "{}: object {} is damaged: its bytes have another SHA-256", store, object_.sha256)};
     }
     if (std::fclose(std::exchange(out_, nullptr)) != 0) {

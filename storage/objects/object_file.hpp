@@ -48,7 +48,7 @@ public:
     /// \throws InputError  if the file cannot be written.
     bool add(std::string_view bytes);
 
-    /// \throws InputError  if bytes are missing, surplus or others.
+    /// \throws UnusableObject  if bytes are missing, surplus or others.
     void keep(const std::string& store);
 
 private:

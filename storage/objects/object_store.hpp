@@ -1,5 +1,7 @@
 #pragma once
 
+#include "estimator/common/error.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,6 +15,12 @@ namespace macadam {
 struct LogObject {
     std::string sha256; ///< 64 lower-case hex digits
     std::int64_t bytes = 0;
+};
+
+/// An object is missing, or has other bytes than expected. Every other failure is one of the store
+/// or of the way to it, whatever object was asked for.
+struct UnusableObject : InputError {
+    using InputError::InputError;
 };
 
 /// Store from which workers on other machines fetch trip logs: a folder, or a bucket of an
@@ -34,7 +42,8 @@ public:
 
     /// Writes an object to a new file, at most `object.bytes` of it.
     ///
-    /// \throws InputError  also if it is missing or its bytes are others; then no file is left.
+    /// \throws UnusableObject  if it is missing or its bytes are others. No file is left after an
+    ///                         error.
     virtual void fetch(const LogObject& object, const std::filesystem::path& file) = 0;
 
     /// Removes an object, if it is there.

@@ -49,6 +49,13 @@ std::string words_in(const std::string& xml) {
     return {};
 }
 
+/// Tests for an answer by which an object is missing, not its bucket.
+bool is_object_missing(const HttpOutcome& outcome) {
+    constexpr long missing = 404;
+    return outcome.failure.empty() && outcome.status == missing &&
+           outcome.words.find("<Code>NoSuchBucket<") == std::string::npos;
+}
+
 class S3Objects final : public ObjectStore {
 public:
     S3Objects(S3Settings settings, std::stop_token stop)
@@ -98,9 +105,8 @@ public:
             (*run_)(transfer, answer);
             return answer;
         });
-        constexpr long missing = 404;
-        if (outcome.failure.empty() && outcome.status == missing) {
-            throw InputError{
+        if (is_object_missing(outcome)) {
+            throw UnusableObject{
                 fmt::format("{}: object {} is missing", settings_.location, object.sha256)};
         }
         if (!is_too_long) {
@@ -115,7 +121,7 @@ public:
             (*run_)(transfer_of("DELETE", sha256, sha256_of_nothing), answer);
             return answer;
         });
-        if (constexpr long missing = 404; outcome.status != missing) {
+        if (!is_object_missing(outcome)) {
             expect_success(outcome, "cannot remove an object");
         }
     }

@@ -13,6 +13,7 @@ struct ImportStore {
     std::filesystem::path name; ///< as the user gave it: a file, or the address of a server
     StoreReader map;            ///< for settings and roads only: it may hold no trips
     std::shared_ptr<ImportTarget> trips;
+    bool by_superuser = false; ///< of the server
 };
 
 /// Returns a GeoPackage as a target of imports; both share the connection.

@@ -22,27 +22,12 @@ namespace {
 constexpr std::string_view prefix = "mac_";
 constexpr std::size_t id_bytes = 4;
 constexpr std::size_t secret_bytes = 32;
+constexpr std::int64_t exchange_again_ms = 600'000; // for a phone that the token did not reach
 
 std::string sha256_of(std::string_view text) {
     Sha256 hash;
     hash.add(text);
     return hash.hex();
-}
-
-/// Splits "mac_ID_SECRET" into id and secret; empty if it is none.
-std::pair<std::string_view, std::string_view> parts_of(std::string_view text) {
-    constexpr auto after_id = prefix.size() + 2 * id_bytes;
-    if (text.size() != after_id + 1 + 2 * secret_bytes || !text.starts_with(prefix) ||
-        text[after_id] != '_') {
-        return {};
-    }
-    return {text.substr(prefix.size(), 2 * id_bytes), text.substr(after_id + 1)};
-}
-
-bool is_equal(const std::string& kept_sha256, std::string_view secret) {
-    const auto given_sha256 = sha256_of(secret);
-    return kept_sha256.size() == given_sha256.size() &&
-           CRYPTO_memcmp(kept_sha256.data(), given_sha256.data(), given_sha256.size()) == 0;
 }
 
 void expect_scope(Database& uploads, const std::string& owner, TokenScope scope) {
@@ -55,10 +40,10 @@ void expect_scope(Database& uploads, const std::string& owner, TokenScope scope)
     }
 }
 
-/// Adds a token; part of a transaction.
+/// Adds a token, with a random id unless it has one; part of a transaction.
 std::string add_token(Database& uploads, const AccessToken& token) {
     expect_scope(uploads, token.owner, token.scope);
-    const auto made = make_secret();
+    const auto made = make_secret(token.id);
     uploads.prepare("INSERT INTO token VALUES (?, ?, ?, ?, ?, ?)")
         .run(made.id,
              made.secret_sha256,
@@ -111,7 +96,7 @@ std::optional<TokenScope> scope_named(std::string_view name) {
     return std::nullopt;
 }
 
-SecretText make_secret() {
+SecretText make_secret(std::string id) {
     std::array<unsigned char, id_bytes + secret_bytes> bytes{};
     // Up to 256 bytes are returned in full (getrandom(2)).
     if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
@@ -121,11 +106,28 @@ SecretText make_secret() {
     for (const auto byte : bytes) {
         digits += fmt::format("{:02x}", byte);
     }
-    const auto id = digits.substr(0, 2 * id_bytes);
+    if (id.empty()) {
+        id = digits.substr(0, 2 * id_bytes);
+    }
     const auto secret = digits.substr(2 * id_bytes);
     return {.id = id,
             .text = fmt::format("{}{}_{}", prefix, id, secret),
             .secret_sha256 = sha256_of(secret)};
+}
+
+GivenSecret parse_secret(std::string_view text) { // mac_ID_SECRET
+    constexpr auto after_id = prefix.size() + 2 * id_bytes;
+    if (text.size() != after_id + 1 + 2 * secret_bytes || !text.starts_with(prefix) ||
+        text[after_id] != '_') {
+        return {};
+    }
+    return {.id = std::string{text.substr(prefix.size(), 2 * id_bytes)},
+            .secret_sha256 = sha256_of(text.substr(after_id + 1))};
+}
+
+bool is_same_secret(std::string_view kept_sha256, std::string_view given_sha256) {
+    return kept_sha256.size() == given_sha256.size() &&
+           CRYPTO_memcmp(kept_sha256.data(), given_sha256.data(), given_sha256.size()) == 0;
 }
 
 std::string token_in(std::string_view authorization) {
@@ -147,13 +149,14 @@ std::string create_token(Database& uploads, const AccessToken& token) {
 
 std::optional<AccessToken>
 find_token(Database& uploads, std::string_view text, std::int64_t now_ms) {
-    const auto [id, secret] = parts_of(text);
+    const auto [id, secret_sha256] = parse_secret(text);
     if (id.empty()) {
         return std::nullopt;
     }
     auto row = uploads.prepare("SELECT id, owner, scope, created_ms, expires_ms, secret_sha256"
                                " FROM token WHERE id = ?");
-    if (!row.bind(id).step() || !is_equal(row.text(5), secret) || row.integer(4) <= now_ms) {
+    if (!row.bind(id).step() || !is_same_secret(row.text(5), secret_sha256) ||
+        row.integer(4) <= now_ms) {
         return std::nullopt;
     }
     return token_of(row);
@@ -171,6 +174,10 @@ std::vector<AccessToken> all_tokens(Database& uploads) {
 
 std::size_t revoke_tokens(Database& uploads, const std::string& id_or_owner) {
     Transaction one{uploads, Transaction::Kind::write};
+    uploads
+        .prepare("DELETE FROM invite WHERE id IN (SELECT id FROM token WHERE id = ?1"
+                 " OR owner = ?1)")
+        .run(id_or_owner); // exchanged already: not counted beside their tokens
     uploads.prepare("DELETE FROM token WHERE id = ?1 OR owner = ?1").run(id_or_owner);
     auto count = uploads.changes();
     uploads.prepare("DELETE FROM invite WHERE owner = ?").run(id_or_owner);
@@ -193,25 +200,35 @@ std::string create_invitation(Database& uploads, const Invitation& invitation) {
     return made.text;
 }
 
+// The token has the id of its invitation, by which a second exchange finds and replaces it.
 std::optional<std::string>
 take_invitation(Database& uploads, std::string_view text, std::int64_t now_ms) {
-    const auto [id, secret] = parts_of(text);
+    const auto [id, secret_sha256] = parse_secret(text);
     if (id.empty()) {
         return std::nullopt;
     }
     Transaction one{uploads, Transaction::Kind::write};
     auto row = uploads.prepare("SELECT owner, expires_ms, token_expires_ms, secret_sha256"
                                " FROM invite WHERE id = ?");
-    if (!row.bind(id).step() || !is_equal(row.text(3), secret) || row.integer(1) <= now_ms) {
+    if (!row.bind(id).step() || !is_same_secret(row.text(3), secret_sha256) ||
+        row.integer(1) <= now_ms) {
         return std::nullopt;
     }
-    auto token = add_token(
-        uploads,
-        {.id = {}, .owner = row.text(0), .created_ms = now_ms, .expires_ms = row.integer(2)});
+    const AccessToken token{.id = std::string{id},
+                            .owner = row.text(0),
+                            .created_ms = now_ms,
+                            .expires_ms = row.integer(2)};
     row.reset();
-    uploads.prepare("DELETE FROM invite WHERE id = ?").run(id);
+    uploads.prepare("DELETE FROM token WHERE id = ? AND owner = ?").run(id, token.owner);
+    const bool is_first = uploads.changes() == 0;
+    auto token_text = add_token(uploads, token);
+    if (is_first) {
+        uploads.prepare("UPDATE invite SET expires_ms = min(expires_ms, ?) WHERE id = ?")
+            .run(now_ms + exchange_again_ms, id);
+    }
+    uploads.prepare("DELETE FROM invite WHERE expires_ms <= ?").run(now_ms);
     one.commit();
-    return token;
+    return token_text;
 }
 
 } // namespace macadam

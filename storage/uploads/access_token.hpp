@@ -35,9 +35,19 @@ struct SecretText {
     std::string secret_sha256;
 };
 
-/// Makes one by getrandom(2).
+/// Makes one by getrandom(2), with the id given or, for "", a random one.
 /// \throws InputError  if the system provides no random numbers.
-SecretText make_secret();
+SecretText make_secret(std::string id = {});
+
+/// Token or invitation as a client gives it; empty if it is none.
+struct GivenSecret {
+    std::string id;
+    std::string secret_sha256;
+};
+GivenSecret parse_secret(std::string_view text);
+
+/// Compares hashes in constant time.
+bool is_same_secret(std::string_view kept_sha256, std::string_view given_sha256);
 
 /// Returns the text of a token in the header Authorization of a request: that of Bearer, or the
 /// password of Basic; "" if there is none.
@@ -64,7 +74,7 @@ std::vector<AccessToken> all_tokens(Database& uploads);
 /// Revokes the tokens of an id or owner, and invitations of the owner. \returns their number.
 std::size_t revoke_tokens(Database& uploads, const std::string& id_or_owner);
 
-/// Invitation, by which somebody gets a token of scope `upload` once.
+/// Invitation, by which somebody gets one token of scope `upload`.
 struct Invitation {
     std::string owner; ///< of the token
     std::int64_t expires_ms = 0;
@@ -75,8 +85,10 @@ struct Invitation {
 /// \throws OtherScope
 std::string create_invitation(Database& uploads, const Invitation& invitation);
 
-/// Takes an invitation. \returns the token; `std::nullopt` if there is no such invitation, or it
-/// was taken or has expired.
+/// Takes an invitation. For ten minutes it can be taken again, as the answer may have been lost on
+/// its way; the new token then replaces the one before.
+/// \returns the token; `std::nullopt` if there is no such invitation, or it was taken before or has
+///     expired.
 /// \throws OtherScope
 std::optional<std::string>
 take_invitation(Database& uploads, std::string_view text, std::int64_t now_ms);

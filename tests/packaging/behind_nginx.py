@@ -133,6 +133,11 @@ def tried(trust, port, token):
     links = [link["href"] for link in json.loads(text)["links"]]
     expect([link for link in links if not link.startswith(f"https://{PUBLIC}/")], [], "links to elsewhere")
     expect(ask(trust, port, "GET", "/metrics")[0].status, 403, "/metrics")
+    packed = {"Accept-Encoding": "gzip"}
+    answer, _ = ask(trust, port, "GET", "/api", more=packed)
+    expect(answer.getheader("Content-Encoding"), "gzip", "the encoding of what all may see")
+    answer, _ = ask(trust, port, "GET", "/v1/trips", token, more=packed)
+    expect(answer.getheader("Content-Encoding"), None, "the encoding of what one client may see")
     log = b"# macadam-trip 1\n"
     path = f"/v1/trips/{hashlib.sha256(log).hexdigest()}"
     expect(ask(trust, port, "PUT", path, "", log)[0].status, 401, "an upload without a token")

@@ -22,7 +22,7 @@ async function ask(url, missing) {
     } catch {
       throw new Failed(url, navigator.onLine ? 'network' : 'offline');
     }
-    if (response.status === 204 || (response.status === 404 && missing !== undefined)) return missing ?? {};
+    if (response.status === 204 || (response.status === 404 && missing !== undefined)) return missing === undefined ? {} : missing;
     if (!response.ok) throw new Failed(url, response.status);
     return await response.json();
   } finally {
@@ -88,11 +88,26 @@ export async function openSite() {
       return shard < 0 ? null : (await once(url.replace('{shard}', shard)))[id] ?? null;
     }),
 
-    // All segments, file by file; of a server, those of its list.
+    // All segments in the order of their keys, file by file; where a server has a newer version by now, the rest is from its files.
     async* segments() {
-      const shards = (await latest(() => once(site.segments.index))).length;
-      const { url } = site.segments;
-      for (let shard = 0; shard < shards; ++shard) yield Object.values(await ask(url.replace('{shard}', shard)));
+      let version, shard, last;
+      const follows = (id) => !last || order(parseId(id), last) > 0;
+      const next = () => latest(async () => {
+        const { index, url } = site.segments;
+        const firsts = await once(index);
+        if (version !== index) {
+          version = index;
+          shard = Math.max(0, shardOf(firsts, follows));
+        }
+        return shard < firsts.length ? Object.entries(await ask(url.replace('{shard}', shard))) : null;
+      });
+      for (let rows = await next(); rows; rows = await next()) {
+        ++shard;
+        const fresh = rows.filter(([id]) => follows(id));
+        if (fresh.length === 0) continue;
+        last = parseId(fresh.at(-1)[0]);
+        yield fresh.map(([, segment]) => segment);
+      }
     },
 
     names: (start, most = 12) => latest(async () => {

@@ -5,7 +5,7 @@ import { confidenceLimits, isWide, mapFilter } from './filter.js';
 import { el } from './dom.js';
 import { glides, letGlide, seenBox } from './gliding.js';
 import { choose, state } from './state.js';
-import { compareMonths, changeColour, monthColour } from './compare.js';
+import { changeColour, compareMonths, forgetCompared, monthColour } from './compare.js';
 import { openSwipe } from './swipe.js';
 
 const layer = 'roughness';
@@ -118,6 +118,14 @@ function withoutSky(map) {
   map.on('style.load', () => { map.style.sky.getEvaluated = () => undefined; });
 }
 
+// Calls `act` when a map has its style again after the browser took its graphics context: feature states are lost then.
+function onRestored(map, act) {
+  map.on('webglcontextrestored', () => map.once('style.load', () => {
+    forgetCompared(map);
+    act();
+  }));
+}
+
 // The libraries come after the first picture.
 export async function openMap(container, data, covered, tell) {
   const [maplibre, { Protocol }] = await Promise.all([import('maplibre-gl'), import('pmtiles')]);
@@ -164,6 +172,8 @@ export async function openMap(container, data, covered, tell) {
   let loaded = false;
   let told;
   map.on('load', () => { loaded = true; show(); });
+  map.on('webglcontextlost', () => { loaded = false; });
+  onRestored(map, () => { loaded = true; show(); });
   map.on('idle', () => {
     container.dataset.ready = 'yes';
     clearTimeout(told);
@@ -173,7 +183,7 @@ export async function openMap(container, data, covered, tell) {
   if (isGliding) map.once('idle', () => letGlide(map)); // the first picture needs no margin
   map.on('dataloading', () => { delete container.dataset.ready; });
 
-  const compare = () => compareMonths(map, data, tell.compared);
+  const compare = () => compareMonths(map, data, tell.compared).catch((error) => tell.failed(error, compare));
   let swipe = null;
   // The later month on a map of its own, which follows this one.
   function openAfter(side) {
@@ -183,12 +193,14 @@ export async function openMap(container, data, covered, tell) {
     withoutSky(after);
     if (isGliding) letGlide(after, map);
     const follow = () => after.jumpTo({ center: map.getCenter(), zoom: map.getZoom() });
-    const compareToo = () => compareMonths(after, data, () => {});
+    const compareToo = () => compareMonths(after, data, () => {}).catch((error) => tell.failed(error, compareToo));
     map.on('move', follow);
-    after.on('load', () => { paint(after, site, 'after'); compareToo(); });
+    const paintAll = () => { paint(after, site, 'after'); compareToo(); };
+    after.on('load', paintAll);
+    onRestored(after, paintAll);
     after.on('moveend', compareToo);
     after.on('error', ({ error }) => tell.failed(error));
-    return { paint: () => { if (after.loaded()) paint(after, site, 'after'); }, remove: () => { map.off('move', follow); after.remove(); } };
+    return { paint: () => { if (after.loaded()) paint(after, site, 'after'); }, remove: () => { map.off('move', follow); forgetCompared(after); after.remove(); } };
   }
   function showSwipe() {
     const months = `${state.a} ${state.b}`;
@@ -207,17 +219,21 @@ export async function openMap(container, data, covered, tell) {
     if (state.mode === 'change') compare();
   }
   const ends = [];
-  const mark = (source) => (lines) => {
+  const mark = (source) => {
+    let lines;
     const set = () => {
       map.getSource(source).setData({ type: 'FeatureCollection', features: lines.map(lineOf) });
       map.setLayoutProperty(source, 'visibility', lines.length > 0 ? 'visible' : 'none'); // a layer costs its masks, also an empty one
     };
-    if (loaded) set(); else map.once('load', set);
+    return (wanted) => {
+      lines = wanted;
+      if (loaded) set(); else map.once('idle', set);
+    };
   };
 
   return {
     show,
-    remove: () => { clearTimeout(told); swipe?.close(); map.remove(); },
+    remove: () => { clearTimeout(told); swipe?.close(); forgetCompared(map); map.remove(); },
     focus: () => map.getCanvas().focus(),
     markPicked: mark('picked'),
     markPointed: mark('pointed'),
@@ -233,6 +249,8 @@ export async function openMap(container, data, covered, tell) {
     },
     // All segments of the tiles in view, also those that a filter hides.
     segments: () => (loaded && map.getZoom() >= segmentsFrom ? map.querySourceFeatures('roads', { sourceLayer: layer }) : []),
+    // Ends when the tiles in view are there.
+    settled: () => new Promise((resolve) => { map.once('idle', resolve).triggerRepaint(); }),
     // Ends of a route, to be dragged: `points` are places, `moved(i, found)` gets the roads at the new one.
     markEnds(points, moved) {
       ends.splice(0).forEach((each) => each.remove());

@@ -71,6 +71,24 @@ export function addFeatures(network, features) {
 // The segment on the other side of the road.
 export const opposite = (id) => id.replace(/[+-](?=\d+$)/, (sign) => (sign === '+' ? '-' : '+'));
 
+// Cosine of the turn from the end of one line to the start of the next.
+function turn(line, next) {
+  const east = Math.cos(next[0][1] * Math.PI / 180);
+  const [a, b] = [line.slice(-2), next.slice(0, 2)].map(([[lon1, lat1], [lon2, lat2]]) => [(lon2 - lon1) * east, lat2 - lat1]);
+  return (a[0] * b[0] + a[1] * b[1]) / (Math.hypot(...a) * Math.hypot(...b) || 1);
+}
+const sharpestTurn = -0.5; // 120 degrees: beyond it a road turns round
+
+// The segment of the same road after one (`step` 1) or before it (-1), also of another OSM way; null unless exactly one continues it.
+export function continuation(network, { segment: id }, step) {
+  const at = network.segments.get(id);
+  if (!at) return null;
+  const isSameRoad = ({ name, highway }) => (name || at.name ? name === at.name : (highway ?? null) === (at.highway ?? null));
+  const others = step > 0 ? network.from[at.end] : [...network.segments.values()].filter(({ end }) => end === at.start);
+  const found = others.filter((each) => isSameRoad(each) && (step > 0 ? turn(at.line, each.line) : turn(each.line, at.line)) > sharpestTurn);
+  return found.length === 1 ? found[0].segment : null;
+}
+
 const push = (heap, item) => {
   let at = heap.push(item) - 1;
   for (let up = (at - 1) >> 1; at > 0 && heap[up].cost > item.cost; at = up, up = (at - 1) >> 1) heap[at] = heap[up];

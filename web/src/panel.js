@@ -109,6 +109,7 @@ export function openPanel(place, data, totals, worst, act) {
       act.failed(failure);
     } finally {
       button.disabled = false;
+      if (document.activeElement === document.body) button.focus(); // a disabled button loses it
     }
   }
 
@@ -153,7 +154,8 @@ export function openPanel(place, data, totals, worst, act) {
         el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
         el('tbody', {}, ...sorted.slice(0, most).map((road) => el('tr', {},
           el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => act.openFeature(road.target) }, roadName(road))),
-          el('td', {}, iri(road.sum / road.km)), el('td', {}, roadLength(road.km)))))))]);
+          el('td', {}, iri(road.sum / road.km)), el('td', {}, roadLength(road.km))))))),
+      sorted.length > most && el('p', { class: 'quiet' }, w('site.more_roads', { count: sorted.length - most }))]);
   }
 
   replace(place, peek,

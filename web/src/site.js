@@ -1,12 +1,14 @@
 // The page of a site: docs/reference/site.md says what it asks for.
-import { onBusy, openSite, parseId } from './data.js';
+import { onBusy, openSite } from './data.js';
 import { choice, neighbour, runDetail, segmentDetail } from './drawer.js';
 import { el, option, replace } from './dom.js';
 import { showFirstPicture } from './first_picture.js';
 import { openMap } from './map.js';
+import { addFeatures, continuation, newNetwork } from './network.js';
 import { openPanel } from './panel.js';
 import { pictureMap } from './pictures.js';
 import { openRouting } from './routing.js';
+import { openSearch } from './search.js';
 import { choose, link, onState, readState, state } from './state.js';
 import { day, iri, iriUnit, month, roadLength, speak, w } from './words.js';
 
@@ -23,11 +25,27 @@ function applyTheme() {
 }
 
 function failure(error, retry) {
-  const reason = error.status === 'offline' || !navigator.onLine ? w('site.offline') : w('site.failed', { what: error.url ?? '', why: String(error.status ?? error.message ?? '') });
-  replace(parts.notice, el('p', {}, reason), el('button', { type: 'button', onclick: () => { clearNotice(); retry(); } }, w('site.retry')));
+  const reasons = error.status === 'offline' || !navigator.onLine ? [w('site.offline'), dateOfData()] : [w('site.failed', { what: error.url ?? '', why: String(error.status ?? error.message ?? '') })];
+  replace(parts.notice, ...reasons.filter(Boolean).map((reason) => el('p', {}, reason)), el('button', { type: 'button', onclick: () => { clearNotice(); retry(); } }, w('site.retry')));
   parts.notice.hidden = false;
 }
 const clearNotice = () => { parts.notice.hidden = true; };
+
+async function attempt(act) {
+  try {
+    await act();
+  } catch (error) {
+    failure(error, () => attempt(act));
+  }
+}
+
+// Says in the status line what else would be silence.
+const say = (text) => replace(parts.status, text && el('p', {}, text));
+
+function dateOfData() {
+  const { published, last_seen: last } = data.site;
+  return published ? w('site.published', { month: month(published.month) }) : last ? w('site.fresh', { day: day(last) }) : '';
+}
 
 async function copy(text, button) {
   const before = button.textContent;
@@ -43,14 +61,18 @@ async function copy(text, button) {
 function showDrawer(content, label) {
   const close = el('button', { type: 'button', class: 'close', 'aria-label': w('site.close'), onclick: closeDrawer }, '×');
   if (parts.drawer.hidden) openedBy = document.activeElement;
+  const focused = parts.drawer.contains(document.activeElement) && document.activeElement.textContent;
   replace(parts.drawer, close, ...content);
   parts.drawer.hidden = false;
   document.body.classList.add('has-drawer');
-  if (label) parts.drawer.querySelector('#drawer-title')?.focus({ preventScroll: true });
+  if (label) for (const each of [parts.sheet, parts.drawer]) each.scrollTop = 0;
+  const again = focused && [...parts.drawer.querySelectorAll('button')].find(({ textContent }) => textContent === focused);
+  if (label || focused) (!label && again || parts.drawer.querySelector('#drawer-title'))?.focus({ preventScroll: true });
   if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet(innerHeight < 500 ? 'high' : 'half');
 }
 
 function closeDrawer() {
+  say('');
   if (parts.drawer.hidden) return;
   if (routing?.isOn()) { // from a segment back to its route, from there to the map
     const wasSegment = Boolean(shownSegment);
@@ -72,6 +94,7 @@ function closeDrawer() {
 async function openSegment(id, { fit = false, focus = true } = {}) {
   try {
     const segment = await data.segment(id);
+    say(segment ? '' : w('site.no_segment', { id }));
     if (!segment) return false;
     shownSegment = segment;
     choose({ s: id });
@@ -89,10 +112,27 @@ async function openSegment(id, { fit = false, focus = true } = {}) {
   }
 }
 
-async function stepAlong(step) {
-  const next = shownSegment && neighbour(shownSegment.segment, step);
-  if (next) await openSegment(next, { fit: true, focus: false });
+// The segment after or before one on its road, across the ends of OSM's ways where the map knows how it goes on.
+async function nextAlong(segment, step) {
+  const next = neighbour(segment.segment, step);
+  if (next && await data.segment(next)) return next;
+  if (!map) return null;
+  const { line, months, ...properties } = segment;
+  const [lon, lat] = line.at(step > 0 ? -1 : 0);
+  if (!(map.sees([lon, lat]) && map.hasSegments())) map.fit([lon, lat, lon, lat], 16);
+  await map.settled();
+  const network = newNetwork();
+  addFeatures(network, [{ properties, geometry: { type: 'LineString', coordinates: line } }, ...map.segments()]);
+  return continuation(network, segment, step);
 }
+
+const stepAlong = (step) => attempt(async () => {
+  const from = shownSegment;
+  const next = from && await nextAlong(from, step);
+  if (shownSegment !== from) return;
+  if (next) await openSegment(next, { fit: true, focus: false });
+  else if (from) say(w('site.road_end'));
+});
 
 function openFeature(feature, at) {
   if (feature.segment) openSegment(feature.segment);
@@ -132,60 +172,17 @@ function setSheet(height) {
 }
 const raise = { low: 'half', half: 'high', high: 'low' };
 
-function search() {
-  const list = el('ul', { id: 'found', role: 'listbox', 'aria-label': w('site.search'), hidden: true });
-  let found = [];
-  let at = -1;
-  const close = () => { list.hidden = true; input.setAttribute('aria-expanded', 'false'); input.removeAttribute('aria-activedescendant'); at = -1; };
-  const take = (road) => {
-    close();
-    input.value = road.name;
-    openSegment(road.segment).then(() => map?.fit(road.bounds));
-  };
-  const mark = (to) => {
-    at = to;
-    [...list.children].forEach((item, i) => item.setAttribute('aria-selected', String(i === at)));
-    if (at >= 0) input.setAttribute('aria-activedescendant', `found-${at}`);
-  };
-  const look = async () => {
-    const text = input.value.trim();
-    if (!text) return close();
-    if (parseId(text)) found = [{ name: text, segment: text, bounds: null }];
-    else {
-      try {
-        const asked = await data.names(text);
-        if (input.value.trim() !== text) return undefined;
-        found = asked;
-      } catch (error) {
-        return failure(error, look);
-      }
-    }
-    replace(list, found.length === 0 ? el('li', { class: 'quiet', role: 'option', 'aria-selected': 'false' }, w('site.no_road'))
-      : found.map((road, i) => el('li', { id: `found-${i}`, role: 'option', 'aria-selected': 'false', onmousedown: (event) => { event.preventDefault(); chosen(road); } },
-        road.name, road.km !== undefined && el('span', { class: 'quiet' }, ` ${roadLength(road.km)} · ${iri(road.iri)}`))));
-    list.hidden = false;
-    input.setAttribute('aria-expanded', 'true');
-    at = -1;
-    return undefined;
-  };
-  const chosen = (road) => (road.bounds ? take(road) : (close(), openSegment(road.segment, { fit: true })));
-  const input = el('input', { type: 'search', id: 'search', role: 'combobox', 'aria-controls': 'found', 'aria-expanded': 'false', 'aria-autocomplete': 'list', autocomplete: 'off',
-    'aria-label': w('site.search'), placeholder: w('site.search'), maxlength: '80', oninput: look, onblur: close,
-    onkeydown: (event) => {
-      if (event.key === 'ArrowDown' || event.key === 'ArrowUp') {
-        event.preventDefault();
-        if (found.length > 0) mark((at + (event.key === 'ArrowDown' ? 1 : found.length - (at < 0 ? 0 : 1))) % found.length);
-      } else if (event.key === 'Enter' && found.length > 0) chosen(found[Math.max(at, 0)]);
-      else if (event.key === 'Escape' && !list.hidden) { event.stopPropagation(); close(); }
-    } });
-  return el('div', { class: 'search' }, input, list);
-}
-
 function settings() {
-  const select = (key, label, values) => el('label', {}, el('span', {}, label), el('select', { onchange: (event) => choose({ [key]: event.target.value }) },
+  const select = (key, label, values) => el('label', {}, el('span', {}, label), el('select', { name: key, onchange: (event) => choose({ [key]: event.target.value }) },
     ...values.map(([value, text]) => option(value, text, state[key] || (key === 'lang' ? document.documentElement.lang : '')))));
   const keys = el('input', { type: 'checkbox', checked: !keysAreOff(), onchange: (event) => { localStorage.setItem('macadam.keys', event.target.checked ? 'on' : 'off'); } });
-  return el('details', { class: 'settings' }, el('summary', {}, w('site.settings')), el('div', { class: 'menu' },
+  const close = (event) => {
+    if (event.key !== 'Escape' || !event.currentTarget.open) return;
+    event.stopPropagation();
+    event.currentTarget.open = false;
+    event.currentTarget.querySelector('summary').focus();
+  };
+  return el('details', { class: 'settings', onkeydown: close }, el('summary', {}, w('site.settings')), el('div', { class: 'menu' },
     select('unit', w('site.unit'), [['mm/m', 'mm/m'], ['in/mi', 'in/mi']]),
     select('lang', w('site.language'), data.site.languages.map((code) => [code, { en: 'English', de: 'Deutsch' }[code] ?? code])),
     select('theme', w('site.theme'), ['auto', 'light', 'dark', 'contrast'].map((name) => [name, w(`site.theme.${name}`)])),
@@ -194,8 +191,7 @@ function settings() {
 }
 
 function footer({ site }) {
-  const fresh = site.published ? w('site.published', { month: month(site.published.month) }) : site.last_seen ? w('site.fresh', { day: day(site.last_seen) }) : '';
-  return el('footer', {}, el('span', {}, fresh), el('span', {}, w('site.indicative')), site.attribution && el('span', {}, site.attribution),
+  return el('footer', {}, el('span', {}, dateOfData()), el('span', {}, w('site.indicative')), site.attribution && el('span', { class: 'attribution' }, site.attribution),
     el('a', { href: 'drive/' }, w('site.record')), el('a', { href: 'assets/licences.txt' }, w('site.licences')));
 }
 
@@ -221,13 +217,15 @@ function openSheetFor(id) {
 
 // Without a map: the names of the roads lead to all numbers.
 async function listNames() {
-  const names = await data.names('', 200);
+  const most = data.site.names.index ? 200 : 50; // of a server
+  const names = await data.names('', most);
   const { overview, pictures, bounds } = data.site;
   replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), pictures ? pictureMap(pictures, bounds) : overview && el('img', { class: 'overview', src: overview, alt: w('site.overview') }), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.roads') },
     el('table', { id: 'road-table' }, el('caption', {}, w('site.roads')),
       el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
       el('tbody', {}, ...names.map((road) => el('tr', {}, el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => openSegment(road.segment) }, road.name)),
-        el('td', {}, iri(road.iri)), el('td', {}, roadLength(road.km))))))));
+        el('td', {}, iri(road.iri)), el('td', {}, roadLength(road.km)))))),
+    names.length === most && el('p', { class: 'quiet' }, w('site.more_names', { count: most }))));
 }
 
 // The worker that keeps answers is fetched after the first picture, which needs the network for itself.
@@ -251,7 +249,7 @@ async function mapOn(place) {
   try {
     return await openMap(place, data, covered, {
       picked,
-      failed: (error) => failure(error, () => location.reload()),
+      failed: (error, retry = () => location.reload()) => failure(error, retry),
       idle: () => { takeAway(); showView(); },
       compared: (counts) => panel?.compared(counts),
     });
@@ -277,11 +275,17 @@ async function draw() {
   const mapPlace = el('div', { id: 'map', class: 'map', role: 'region', 'aria-label': w('site.map') });
   const notice = el('div', { class: 'notice', role: 'alert', hidden: true });
   const bar = el('div', { class: 'progress', hidden: true, role: 'progressbar', 'aria-label': w('site.loading') });
-  parts = { handle, sheet, drawer, map: mapPlace, notice };
+  const status = el('div', { class: 'status', role: 'status', onclick: () => say('') });
+  parts = { handle, sheet, drawer, map: mapPlace, notice, status };
+  const setting = document.activeElement?.closest('.settings') && document.activeElement.name; // that has the page drawn anew
   document.body.replaceChildren(
     el('a', { class: 'skip', href: '#legend', onclick: (event) => { event.preventDefault(); openSheetFor('legend'); document.querySelector('#legend input')?.focus(); } }, w('site.skip')),
-    el('header', {}, el('h1', {}, site.title), search(), settings(), el('button', { type: 'button', class: 'share', onclick: (event) => copy(link(), event.currentTarget) }, w('site.share'))),
-    bar, el('main', {}, mapPlace, notice, sheet), footer(data));
+    el('header', {}, el('h1', {}, site.title), openSearch({ names: (text) => data.names(text), openSegment, fit: (bounds) => map?.fit(bounds), failure, say }), settings(), el('button', { type: 'button', class: 'share', onclick: (event) => copy(link(), event.currentTarget) }, w('site.share'))),
+    bar, el('main', {}, mapPlace, el('div', { class: 'messages' }, notice, status), sheet), footer(data));
+  if (setting) {
+    document.querySelector('.settings').open = true;
+    document.querySelector(`.settings [name=${setting}]`).focus();
+  }
   setSheet('low');
   // Nothing has the focus where the low sheet hides it.
   panelPlace.addEventListener('focusin', () => { if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet('half'); });
@@ -298,9 +302,9 @@ async function draw() {
   if (map) showView();
   else {
     panel.drawView(null);
-    await listNames();
+    await attempt(listNames);
   }
-  await routing?.restore();
+  await attempt(async () => routing?.restore());
   if (state.s) await openSegment(state.s, { fit: !state.map, focus: false });
 }
 

@@ -4,7 +4,8 @@ import { gzipSync } from 'node:zlib';
 import { after, before, describe, test } from 'node:test';
 import { join } from 'node:path';
 import { csvRows } from '../src/drawer.js';
-import { addFeatures, newNetwork, routeAlong } from '../src/network.js';
+import { parseId } from '../src/data.js';
+import { addFeatures, continuation, newNetwork, routeAlong } from '../src/network.js';
 import { served } from './served.mjs';
 import { world } from './browser.mjs';
 
@@ -100,6 +101,22 @@ describe('a network of what tiles have shown', () => {
     addFeatures(network, [segment('1+0000', 0, 20, [[0, 0], [20, 0]]), segment('2+0000', 0, 20, [[20.6, 0.4], [40, 0]]), segment('3+0000', 0, 20, [[20, 3], [40, 3]])]);
     assert.deepEqual(ids(routeAlong(network, ['1+0000', '2+0000'])), ['1+0000', '2+0000']);
     assert.equal(routeAlong(network, ['1+0000', '3+0000']), null);
+  });
+
+  test('goes on along a road where its way ends, in its direction, and neither turns round nor guesses at a fork', () => {
+    const network = newNetwork();
+    const road = (name, ...what) => { const { properties, ...rest } = segment(...what); return { ...rest, properties: { ...properties, name, highway: 'residential' } }; };
+    addFeatures(network, [road('A', '1+0000', 0, 20, [[0, 0], [20, 0]]), road('A', '1-0000', 0, 20, [[20, 0], [0, 0]]), road('A', '2-0004', 80, 100, [[20, 0], [40, 0]]), road('A', '2+0004', 80, 100, [[40, 0], [20, 0]]),
+      road('B', '3+0000', 0, 20, [[20, 0], [20, 20]]), road('A', '4+0000', 0, 20, [[40, 0], [60, 10]]), road('A', '5+0000', 0, 20, [[40, 0], [60, -10]]),
+      road(null, '6+0000', 0, 20, [[0, 90], [20, 90]]), road(undefined, '7+0000', 0, 20, [[20, 90], [40, 90]])]);
+    const next = (id, step) => continuation(network, { segment: id }, step);
+    assert.equal(next('1+0000', 1), '2-0004');
+    assert.equal(next('2-0004', -1), '1+0000');
+    assert.equal(next('2+0004', 1), '1-0000');
+    assert.equal(next('2-0004', 1), null, 'a fork');
+    assert.equal(next('3+0000', 1), null, 'an end');
+    assert.equal(next('6+0000', 1), '7+0000', 'roads without a name');
+    assert.equal(next('9+0000', 1), null);
   });
 });
 
@@ -372,6 +389,27 @@ describe('the page', { timeout: 1000_000 }, () => {
     });
   }
 
+  test('compares also what is drawn beyond the view, and counts what is in view', async () => {
+    const { bounds: [west, south, east, north], compare: { zoom }, months } = town.site;
+    const tiles = 2 ** zoom;
+    const column = Math.floor(tiles * ((west + east) / 2 + 180) / 360);
+    const row = Math.floor(tiles * (1 - Math.asinh(Math.tan((south + north) / 2 * Math.PI / 180)) / Math.PI) / 2);
+    // Two zooms further a tile is 2,048 pixels wide. 800 lie to the left: more than half of the view, less than half of what is drawn.
+    const lon = (column + 800 / 2048) / tiles * 360 - 180;
+    const lat = Math.atan(Math.sinh(Math.PI * (1 - 2 * (row + 0.5) / tiles))) * 180 / Math.PI;
+    const { page, text, close } = await town.page(`#map=${zoom + 2}/${lat}/${lon}&mode=change`);
+    const asked = () => page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => /months\/\d+\/\d+\/\d+/.exec(name)?.[0]).filter(Boolean));
+    await page.waitForFunction((sought) => performance.getEntriesByType('resource').some(({ name }) => name.includes(sought)), `months/${zoom}/${column - 1}/`);
+    assert.deepEqual([...new Set(await asked())].sort(), [column - 1, column].map((each) => `months/${zoom}/${each}/${row}`));
+    await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
+    const told = /In view: (\d+) segments smoother, (\d+) rougher, (\d+) without/.exec(await text('.panel')).slice(1);
+    const inView = Object.values(JSON.parse(readFileSync(join(town.folder, `site/months/${zoom}/${column}/${row}.json`), 'utf8')))
+      .filter((each) => [0, months.length - 1].every((sought) => each.some(([month]) => month === sought)));
+    assert.ok(inView.length > 0);
+    assert.equal(told.reduce((sum, each) => sum + Number(each), 0), inView.length);
+    await close();
+  });
+
   // Some neighbouring measured segments of one way, in driving direction.
   function stretch(count) {
     const names = new Map(details().map((each) => [each.segment, each]));
@@ -612,7 +650,7 @@ describe('the page', { timeout: 1000_000 }, () => {
     const { page, text, close } = await town.page();
     await page.context().setOffline(true);
     await page.waitForSelector('.notice[role=alert]:not([hidden])');
-    assert.match(await text('.notice'), /No network/);
+    assert.match(await text('.notice'), /No network[^]*Data up to \d{4}-\d\d-\d\d/);
     await page.context().setOffline(false);
     await close();
   });
@@ -654,6 +692,250 @@ describe('the page', { timeout: 1000_000 }, () => {
     assert.equal(await text('h1'), 'Krems <b>&amp;');
     await close();
   });
+
+  test('says which months could not be loaded, and compares when they can', async () => {
+    const [west, south, east, north] = town.site.bounds;
+    let isBroken = true;
+    const { page, text, wrong, close } = await town.page(`#map=15/${(south + north) / 2}/${(west + east) / 2}&mode=change`, { before: (page) => page.route('**/months/**', (route) => (isBroken ? route.fulfill({ status: 500 }) : route.continue())) });
+    await page.waitForSelector('.notice[role=alert] button');
+    assert.match(await text('.notice'), /months\/.*: 500/);
+    isBroken = false;
+    await page.locator('.notice button').click();
+    await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
+    wrong.splice(0); // the browser's own words on the failures
+    await close();
+  });
+
+  test('keeps its map where a segment of a link to a route cannot be loaded', async () => {
+    const run = stretch(8);
+    const [first, last] = [run[0].segment, run.at(-1).segment];
+    let isBroken = true;
+    const { page, wrong, close } = await town.page(`#r=${first},${last}&way=${first}~${last}`, { before: (page) => page.route('**/segments/*.json', (route) => (isBroken ? route.fulfill({ status: 500 }) : route.continue())) });
+    await page.waitForSelector('.notice[role=alert] button');
+    assert.equal(await page.locator('#map canvas').count(), 1);
+    isBroken = false;
+    await page.locator('.notice button').click();
+    await page.waitForSelector('#profile-part strong');
+    wrong.splice(0); // the browser's own words on the failures
+    await close();
+  });
+
+  test('goes on along a road from way to way, and says where it ends', async () => {
+    const all = details();
+    const ids = new Set(all.map(({ segment }) => segment));
+    const network = newNetwork();
+    addFeatures(network, all.map(({ line, months, ...properties }) => ({ properties, geometry: { type: 'LineString', coordinates: line } })));
+    const isLast = ({ segment, name }) => { const { way, backward, index } = parseId(segment); return name && !backward && !ids.has(`${way}+${String(index + 1).padStart(4, '0')}`); };
+    const lasts = all.filter(isLast);
+    const before = lasts.find((each) => continuation(network, each, 1));
+    const end = lasts.find((each) => network.segments.has(each.segment) && network.from[network.segments.get(each.segment).end].every(({ name }) => name !== each.name));
+    const { page, text, breaches, close } = await town.page(`#${at(before, 17)}&s=${before.segment}`, { width: 1600 });
+    await page.waitForSelector('.drawer dl');
+    await page.keyboard.press(']');
+    await page.waitForFunction((id) => document.querySelector('.drawer code').textContent !== id, before.segment);
+    assert.equal(await text('.drawer code'), continuation(network, before, 1));
+    await page.keyboard.press('[');
+    await page.waitForFunction((id) => document.querySelector('.drawer code').textContent === id, before.segment);
+    assert.equal(await text('.status'), '');
+    await page.goto(`${page.url().split('#')[0]}#${at(end, 17)}&s=${end.segment}`);
+    await page.waitForFunction((id) => document.querySelector('.drawer code')?.textContent === id, end.segment);
+    await page.keyboard.press(']');
+    await page.waitForFunction(() => /End of the road/.test(document.querySelector('.status[role=status]').textContent));
+    assert.deepEqual(await breaches(), []);
+    await page.keyboard.press('Escape');
+    assert.equal(await text('.status'), '');
+    await close();
+  });
+
+  for (const source of ['a folder', 'a server']) {
+    test(`says that ${source} has no segment of a link or a search`, async () => {
+      const asOfServer = { ...town.site, segments: { url: 'segments/{id}.json' } };
+      const { page, wrong, close } = await town.page('#s=999%2B0000', { before: (page) => page.route('**/site.json', (route) => (source === 'a server' ? route.fulfill({ json: asOfServer }) : route.continue())) });
+      const says = (words) => page.waitForFunction((sought) => document.querySelector('.status[role=status]').textContent.includes(sought), words);
+      await says('Segment 999+0000 is not in this map');
+      await page.keyboard.press('/');
+      await page.keyboard.type('998+0001');
+      await page.waitForSelector('#found li');
+      await page.keyboard.press('Enter');
+      await says('Segment 998+0001 is not in this map');
+      await page.locator('#search').fill('Nowhere at all');
+      await page.waitForFunction(() => /No measured road/.test(document.querySelector('#found').textContent));
+      await page.keyboard.press('Enter');
+      await says('No measured road of this name');
+      assert.equal(await page.locator('.notice').isVisible(), false);
+      if (source === 'a server') wrong.splice(0); // the browser's own words on 404
+      await close();
+    });
+  }
+
+  test('says how many roads in view its table leaves out', async () => {
+    const { fromGeojsonVt } = await import('@maplibre/vt-pbf');
+    const [west, south, east, north] = town.site.bounds;
+    const tiles = 2 ** 14;
+    const column = Math.floor(tiles * ((west + east) / 2 + 180) / 360);
+    const row = Math.floor(tiles * (1 - Math.asinh(Math.tan((south + north) / 2 * Math.PI / 180)) / Math.PI) / 2);
+    const features = Array.from({ length: 63 }, (_, i) => ({ type: 2, geometry: [[[100, 60 * (i + 1)], [3900, 60 * (i + 1)]]],
+      tags: { segment: `${i + 1}+0000`, way_id: i + 1, direction: 'forward', name: `Road ${i}`, highway: 'residential', from_m: 0, to_m: 20, iri: 1, iri_low: 0.9, iri_high: 1.1, class: i === 0 ? 'poor' : 'good', passes: i < 12 ? 1 : 2 } }));
+    const body = Buffer.from(fromGeojsonVt({ roughness: { features } }, { version: 2, extent: 4096 }));
+    const lon = (column + 0.5) / tiles * 360 - 180;
+    const lat = Math.atan(Math.sinh(Math.PI * (1 - 2 * (row + 0.5) / tiles))) * 180 / Math.PI;
+    const { page, text, close } = await town.page(`#map=14/${lat}/${lon}`, { before: async (page) => {
+      await page.route('**/site.json', (route) => route.fulfill({ json: { ...town.site, tiles: { url: 'tiles/{z}/{x}/{y}.pbf', min_zoom: 14, max_zoom: 14 } } }));
+      await page.route('**/tiles/14/**', (route) => (route.request().url().endsWith(`/${column}/${row}.pbf`) ? route.fulfill({ body }) : route.fulfill({ status: 204 })));
+    } });
+    await page.waitForFunction(() => document.querySelectorAll('#view-table tbody tr').length === 50);
+    assert.match(await text('#view'), /13 more roads; zoom in or filter/);
+    await page.getByLabel('Passes, at least').selectOption('2');
+    await page.waitForFunction(() => [...document.querySelectorAll('#view p')].at(-1).textContent === '1 more road; zoom in or filter');
+    await page.getByLabel('Passes, at least').selectOption('5');
+    await page.waitForFunction(() => /No measured road/.test(document.querySelector('#view').textContent));
+    await close();
+  });
+
+  test('says without WebGL that its table has the first roads alone', async () => {
+    const names = Array.from({ length: 250 }, (_, i) => ({ name: `Road ${i}`, key: `road ${String(i).padStart(3, '0')}`, km: 1, iri: 1, bounds: town.site.bounds, segment: '1+0000' }));
+    const { page, text, close } = await town.page('', { ready: false, before: async (page) => {
+      await page.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+      await page.route('**/names/index.json', (route) => route.fulfill({ json: [names[0].key] }));
+      await page.route('**/names/0.json', (route) => route.fulfill({ json: names }));
+    } });
+    await page.waitForFunction(() => document.querySelectorAll('#road-table tbody tr').length === 200);
+    assert.match(await text('#map'), /The first 200 roads by name; the search finds all/);
+    await close();
+  });
+
+  for (const [width, height] of [[320, 640], [568, 320], [768, 900], [1440, 900]]) {
+    test(`names its source, and says that it is indicative, in ${width} x ${height} pixels`, async () => {
+      const { page, breaches, close } = await town.page('', { width, height, hasTouch: width < 700 });
+      for (const words of [town.site.attribution, 'Indicative; no substitute for a survey']) {
+        const box = await page.locator('footer').getByText(words).boundingBox();
+        assert.ok(box && box.height > 0 && box.x >= 0 && box.x + box.width <= width && box.y + box.height <= height, words);
+      }
+      assert.deepEqual(await breaches(), []);
+      await close();
+    });
+  }
+
+  test('breaks no rule in forced colours and high contrast in 320 pixels', async () => {
+    const { page, breaches, close } = await town.page('', { width: 320, height: 640, forcedColors: 'active', contrast: 'more', hasTouch: true });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    assert.deepEqual(await breaches(), []);
+    await page.keyboard.press('w');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.drawer dl');
+    assert.deepEqual(await breaches(), []);
+    await close();
+  });
+
+  test('serves a whole session by keyboard: search, filter, export, settings', async () => {
+    const { page, text, close } = await town.page();
+    const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key); };
+    const focused = (property = 'textContent') => page.evaluate((name) => document.activeElement[name], property);
+    const tabTo = async (words, key = 'Tab') => { // the text of a control, or of its label
+      for (let i = 0; i < 60; ++i) {
+        await press(key);
+        if (await page.evaluate((sought) => (document.activeElement.closest('label') ?? document.activeElement).textContent.startsWith(sought) && document.activeElement !== document.body, words)) return;
+      }
+      assert.fail(`no key leads to ${words}`);
+    };
+    await press('/');
+    await page.keyboard.type(town.segments.find(({ name }) => name?.length > 5).name.slice(0, 3));
+    await page.waitForSelector('#found li[id]');
+    await press('ArrowDown');
+    assert.equal(await page.locator('#search').getAttribute('aria-activedescendant'), 'found-0');
+    const chosen = (await text('#found-0')).split(' ')[0];
+    await press('Enter');
+    await page.waitForSelector('.drawer dl');
+    assert.equal(await focused('id'), 'drawer-title');
+    assert.ok((await focused()).startsWith(chosen));
+    await tabTo('Onward');
+    const first = await text('.drawer code');
+    await press('Enter');
+    await page.waitForFunction((id) => document.querySelector('.drawer code').textContent !== id || document.querySelector('.status').textContent !== '', first);
+    assert.match(await focused(), /^Onward/);
+    await press('Escape');
+    assert.equal(await focused('id'), 'search', 'the focus is back');
+
+    await tabTo('Settings');
+    await press('Enter');
+    await tabTo('Unit');
+    await press('i'); // of in/mi
+    await page.waitForFunction(() => document.querySelector('.settings')?.open && document.activeElement.name === 'unit' && / mi of /.test(document.querySelector('.total')?.textContent));
+    await press('m');
+    await page.waitForFunction(() => document.querySelector('.settings')?.open && document.activeElement.name === 'unit' && / km of /.test(document.querySelector('.total')?.textContent));
+    await press('Escape');
+    assert.equal(await page.locator('.menu').isVisible(), false);
+    assert.equal(await focused(), 'Settings', 'the focus is back');
+
+    await tabTo('Poor');
+    const all = await text('.total');
+    await press('Space');
+    await page.waitForFunction((before) => document.querySelector('.total').textContent !== before, all);
+    assert.match(page.url(), /c=poor/);
+    assert.match(await page.evaluate(() => document.activeElement.closest('label').textContent), /^Poor/);
+
+    await tabTo('Download CSV', 'Shift+Tab'); // the shorter way round
+    const [file] = await Promise.all([page.waitForEvent('download'), press('Enter')]);
+    assert.equal(readFileSync(await file.path(), 'utf8').trim().split('\n').length - 1, town.segments.filter(({ class: name }) => name !== 'poor').length);
+    await page.waitForFunction(() => document.activeElement.textContent === 'Download CSV');
+    assert.equal(await page.evaluate(() => document.scrollingElement.scrollTop), 0, 'the head stays in sight');
+    await close();
+  });
+
+  test('draws the same again after the browser took its graphics context', { timeout: 200_000 }, async () => {
+    const [west, south, east, north] = town.site.bounds;
+    const { page, drawn, close } = await town.page(`#map=15/${(south + north) / 2}/${(west + east) / 2}&mode=change`);
+    await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
+    const context = (what) => page.evaluate((act) => {
+      globalThis.taking ??= document.querySelector('#map canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+      globalThis.taking[act]();
+    }, what);
+    // The picture when nothing changes it any more.
+    const settled = async (isWanted) => {
+      for (let before = null; ;) { // the test's time limit ends it
+        await drawn();
+        const now = await page.locator('#map').screenshot();
+        if (before?.equals(now) && isWanted(now)) return now;
+        before = now;
+      }
+    };
+    const before = await settled(() => true);
+    await context('loseContext');
+    await settled((now) => !now.equals(before));
+    await context('restoreContext');
+    await settled((now) => now.equals(before));
+    await close();
+  });
+
+  for (const scale of [1, 2]) {
+    test(`finds what it draws after wheel and pinch, with ${scale} pixels of the screen for one of the page`, async () => {
+      const { detail } = lonely();
+      const { page, text, close } = await town.page(`#${at(detail)}`, { deviceScaleFactor: scale, hasTouch: true });
+      const box = await page.locator('#map').boundingBox();
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2].map(Math.round);
+      const place = () => /map=([^&]+)/.exec(page.url())[1].split('/').map(Number);
+      const zoomed = (from) => page.waitForFunction((zoom) => Math.abs(Number(/map=([\d.]+)/.exec(location.hash)[1]) - zoom) > 0.1 && document.querySelector('#map[data-ready] canvas')?.style.transform === '', from);
+      await page.mouse.move(x, y);
+      await page.mouse.wheel(0, 240);
+      await zoomed(18);
+      const [wheeled] = place();
+      assert.ok(wheeled < 18);
+      const session = await page.context().newCDPSession(page);
+      await session.send('Input.synthesizePinchGesture', { x, y, scaleFactor: 1.5, relativeSpeed: 400, gestureSourceType: 'touch' });
+      await zoomed(wheeled);
+      const [zoom, lat, lon] = place();
+      assert.ok(zoom > wheeled);
+      const [[lon1, lat1], [lon2, lat2]] = [detail.line[0], detail.line.at(-1)];
+      const east = Math.cos(lat * Math.PI / 180);
+      const world = 512 * 2 ** zoom / 360; // pixels for a degree of longitude
+      const course = Math.atan2((lon2 - lon1) * east, lat2 - lat1);
+      const side = 4.5 + 5.5 * (zoom - 16) / 3; // pixels to the right in driving direction, as map.js has it
+      await page.mouse.click(box.x + box.width / 2 + ((lon1 + lon2) / 2 - lon) * world + side * Math.cos(course), box.y + box.height / 2 - ((lat1 + lat2) / 2 - lat) * world / east + side * Math.sin(course));
+      await page.waitForSelector('.drawer dl');
+      assert.equal(await text('.drawer code'), detail.segment);
+      await close();
+    });
+  }
 
   test('leads to the data without script', async () => {
     const { page, close } = await town.page('', { ready: false, javaScriptEnabled: false });

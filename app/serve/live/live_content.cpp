@@ -1,6 +1,5 @@
 #include "app/serve/live/live_content.hpp"
 
-#include "app/export/site_export.hpp"
 #include "app/serve/live/file_number.hpp"
 #include "app/site/site_page.hpp"
 #include "estimator/common/error.hpp"
@@ -30,8 +29,11 @@ std::filesystem::path beside() {
 
 } // namespace
 
-LiveContent::LiveContent(std::filesystem::path file, Audience audience, const Console& console)
-    : file_{std::move(file)}, audience_{audience}, console_{console},
+LiveContent::LiveContent(std::filesystem::path file,
+                         Audience audience,
+                         const Console& console,
+                         SiteLook look)
+    : file_{std::move(file)}, audience_{audience}, console_{console}, look_{std::move(look)},
       tile_maker_{beside()}, thread_{[this](const std::stop_token& stop) { work(stop); }} {}
 
 void LiveContent::refresh(const std::string& version, bool published_alone) {
@@ -159,13 +161,16 @@ void LiveContent::make_page(const StoreReader& store,
         EarlierSite site{before->page->place(), before->segments, *std::move(changed)};
         earlier = std::move(site);
     }
+    auto look = look_;
+    if (look.title.empty()) {
+        look.title = file_.stem().string();
+    }
     auto page = std::make_shared<const LivePage>(beside(), version);
     auto segments =
         export_site(store,
                     {},
                     page->place(),
-                    {.title = file_.stem().string(),
-                     .left_hand = false,
+                    {.look = std::move(look),
                      .tiles = {.min_zoom = TileSet::min_zoom, .max_zoom = TileSet::max_zoom},
                      .served_version = version,
                      .earlier = earlier ? &*earlier : nullptr},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/cli/console.hpp"
+#include "app/export/site_export.hpp"
 #include "app/export/site_segments.hpp"
 #include "app/serve/live/tile_maker.hpp"
 #include "app/serve/live/tile_set.hpp"
@@ -39,7 +40,11 @@ struct LivePage {
 class LiveContent {
 public:
     /// \param file  the database
-    LiveContent(std::filesystem::path file, Audience audience, const Console& console);
+    /// \param look  of the page; without a title, it has the name of the file
+    LiveContent(std::filesystem::path file,
+                Audience audience,
+                const Console& console,
+                SiteLook look);
     ~LiveContent() = default;
     LiveContent(const LiveContent&) = delete;
     LiveContent& operator=(const LiveContent&) = delete;
@@ -65,6 +70,7 @@ private:
     std::filesystem::path file_;
     Audience audience_;
     const Console& console_;
+    SiteLook look_;
     bool has_page_ = true; ///< false once it was refused
     TileMaker tile_maker_; ///< of the thread, as are those below
     std::uint64_t file_number_ = 0;

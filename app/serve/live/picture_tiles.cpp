@@ -22,11 +22,14 @@ TileId square_of(const TileId& tile) {
 }
 
 /// Painter of what an audience may see of a database now.
-TileSquarePainter
-painter_of(const std::filesystem::path& file, Audience audience, const std::stop_token& stop) {
+TileSquarePainter painter_of(const std::filesystem::path& file,
+                             Audience audience,
+                             bool left_hand,
+                             const std::stop_token& stop) {
     auto store = StoreReader::open(file, {.stop = stop}, audience);
     MapStyle style;
     style.classes = class_table(store.settings().class_table);
+    style.left_hand_traffic = left_hand;
     return TileSquarePainter{
         std::move(store), std::move(style), tile_px, tile_px * static_cast<int>(across)};
 }
@@ -48,9 +51,12 @@ struct PictureTiles::Painter {
     TileSquarePainter painter;
 };
 
-PictureTiles::PictureTiles(std::filesystem::path file, Audience audience, const Console& console)
+PictureTiles::PictureTiles(std::filesystem::path file,
+                           Audience audience,
+                           const Console& console,
+                           bool left_hand)
     : file_{std::move(file)}, audience_{audience}, console_{console},
-      thread_{[this](const std::stop_token& stop) { work(stop); }} {}
+      left_hand_{left_hand}, thread_{[this](const std::stop_token& stop) { work(stop); }} {}
 
 PictureTiles::~PictureTiles() {
     request_stop();
@@ -126,7 +132,7 @@ void PictureTiles::draw(const TileId& first, const std::string& version, Square&
         if (!painter_ || painter_->version != version) {
             painter_.reset();
             painter_ = std::make_unique<Painter>(
-                Painter{version, painter_of(file_, audience_, stop_.get_token())});
+                Painter{version, painter_of(file_, audience_, left_hand_, stop_.get_token())});
         }
         auto& painter = painter_->painter;
         painter.draw(whole_square(first),

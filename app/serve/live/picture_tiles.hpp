@@ -25,9 +25,13 @@ namespace macadam {
 /// asked for, in squares of 4 x 4 tiles of 256 px; the latest are kept in memory.
 class PictureTiles {
 public:
-    /// \param file     the database
-    /// \param console  is told once why nothing can be drawn
-    PictureTiles(std::filesystem::path file, Audience audience, const Console& console);
+    /// \param file       the database
+    /// \param console    is told once why nothing can be drawn
+    /// \param left_hand  traffic keeps left
+    PictureTiles(std::filesystem::path file,
+                 Audience audience,
+                 const Console& console,
+                 bool left_hand = false);
     ~PictureTiles();
     PictureTiles(const PictureTiles&) = delete;
     PictureTiles& operator=(const PictureTiles&) = delete;
@@ -66,6 +70,7 @@ private:
     std::filesystem::path file_;
     Audience audience_;
     const Console& console_;
+    bool left_hand_;
     std::stop_source stop_; ///< of reading
     struct Painter;
     std::unique_ptr<Painter> painter_; ///< of the thread

@@ -220,7 +220,7 @@ std::string paths_text(const std::vector<const Collection*>& collections) {
     add("/tileMatrixSets", "matrixSets", "Tile matrix sets", json);
     add("/tileMatrixSets/{tileMatrixSetId}", "matrixSet", "A tile matrix set", json, {matrix_set});
     add("/tiles.json", "tileJson", "TileJSON 3.0", json);
-    add("/health", "health", "Whether the server is well", json);
+    add("/health", "health", "Whether the server is well", "application/health+json");
     for (const auto& each : known_collections()) {
         if (each.is_of_operator) {
             add_trip_collection_paths(paths, items_parameters(each));

@@ -7,7 +7,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t max_buckets = 10'000; // then the full ones, which say nothing, are dropped
+constexpr std::size_t min_kept = 10'000; // buckets; full ones beyond that are dropped
 
 } // namespace
 
@@ -18,12 +18,10 @@ double TokenBuckets::filled(const Bucket& bucket, Clock::time_point now) const {
 
 std::optional<std::chrono::seconds> TokenBuckets::take(std::string_view name,
                                                        Clock::time_point now) {
-    if (buckets_.size() >= max_buckets) {
-        std::erase_if(buckets_,
+    if (buckets_.size() >= std::max(min_kept, drop_at_)) {
+        std::erase_if(buckets_, // those of others would be full again, too
                       [&](const auto& entry) { return filled(entry.second, now) >= burst_; });
-        if (buckets_.size() >= max_buckets) {
-            buckets_.clear();
-        }
+        drop_at_ = 2 * buckets_.size();
     }
     auto bucket = buckets_.find(name);
     if (bucket == buckets_.end()) {

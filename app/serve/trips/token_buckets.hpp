@@ -11,7 +11,7 @@
 namespace macadam {
 
 /// Limits how often somebody may do something: `burst` times at once, and then `per_s` times a
-/// second. For one thread.
+/// second. Kept are those who asked within the time of a refill. For one thread.
 class TokenBuckets {
 public:
     using Clock = std::chrono::steady_clock;
@@ -21,6 +21,8 @@ public:
     /// Takes one token from the bucket of a name. \returns the time to wait if it is empty.
     std::optional<std::chrono::seconds> take(std::string_view name,
                                              Clock::time_point now = Clock::now());
+
+    std::size_t count() const { return buckets_.size(); } ///< of those kept
 
 private:
     struct Bucket {
@@ -33,6 +35,7 @@ private:
     double per_s_;
     double burst_;
     std::map<std::string, Bucket, std::less<>> buckets_;
+    std::size_t drop_at_ = 0; ///< number of buckets at which full ones are dropped next
 };
 
 } // namespace macadam

@@ -5,7 +5,6 @@
 #include "estimator/common/error.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/text.hpp"
-#include "storage/uploads/upload_database.hpp"
 #include "storage/uploads/upload_queue.hpp"
 
 #include <fmt/format.h>
@@ -103,24 +102,26 @@ HttpResponse json_response(int status, const std::string& text) {
 
 } // namespace
 
-TripsApi::TripsApi(std::filesystem::path store, TripsApiConfig config, std::function<void()> queued)
-    : store_{std::move(store)}, config_{std::move(config)}, queued_{std::move(queued)},
-      events_{store_}, by_token_{config_.per_s, config_.burst},
+TripsApi::TripsApi(std::unique_ptr<UploadPlace> place,
+                   TripsApiConfig config,
+                   std::function<void()> queued)
+    : place_{std::move(place)}, config_{std::move(config)}, queued_{std::move(queued)},
+      events_{place_.get()}, by_owner_{config_.per_s, config_.burst},
       by_address_{config_.per_address_s, config_.burst_of_address},
       failures_{config_.failures_s, config_.burst_of_failures} {}
 
-Database* TripsApi::opened(std::optional<Database>& uploads) const {
-    if (!uploads && takes_uploads(store_)) {
-        uploads = open_uploads(store_);
+UploadStore* TripsApi::opened(std::unique_ptr<UploadStore>& uploads) const {
+    if (!uploads && place_) {
+        uploads = place_->open();
     }
-    return uploads ? &*uploads : nullptr;
+    return uploads.get();
 }
 
-std::optional<AccessToken> TripsApi::access_of(Database& uploads,
+std::optional<AccessToken> TripsApi::access_of(UploadStore& uploads,
                                                const HttpRequest& request) const {
     const auto name = staff_named(request, config_.staff_header);
     return name.empty()
-               ? find_token(uploads, token_in(request.header("authorization")), now_ms())
+               ? uploads.find_token(token_in(request.header("authorization")), now_ms())
                : std::optional{AccessToken{
                      .id = std::string{staff_id}, .owner = name, .scope = TokenScope::operator_}};
 }
@@ -131,7 +132,7 @@ std::optional<HttpResponse> TripsApi::refused_rate(const HttpRequest& request,
                                                    const std::optional<AccessToken>& token) {
     auto wait = by_address_.take(request.client);
     if (!wait) {
-        wait = token ? by_token_.take(token->id) : failures_.take(request.client);
+        wait = token ? by_owner_.take(token->owner) : failures_.take(request.client);
     }
     return wait ? std::optional{later(429, "too many requests", *wait)} : std::nullopt;
 }
@@ -218,9 +219,12 @@ HttpAdmission TripsApi::admit_upload(const HttpRequest& request,
     if (request.header("content-length") == "0") {
         return refused(http_problem(422, "the body is empty, expected a trip log"));
     }
-    const auto spool = spool_of(store_);
+    if (const auto words = of_network_->refusal(); !words.empty()) {
+        return refused(later(503, words, std::chrono::minutes{5}));
+    }
+    const auto spool = place_->spool();
     if (!has_free(spool, config_.min_free_bytes + body_bytes_of(request)) ||
-        count_waiting(*of_network_) >= config_.max_waiting) {
+        of_network_->count_waiting() >= config_.max_waiting) {
         return refused(
             later(503, "too many trips wait, or the disk is full", std::chrono::minutes{5}));
     }
@@ -238,7 +242,7 @@ bool TripsApi::is_of_operator(const HttpRequest& request) {
     if (token_in(request.header("authorization")).empty() && config_.staff_header.empty()) {
         return false;
     }
-    auto& [mutex, connection] = of_readers_;
+    auto& [mutex, connection] = of_checks_; // who wait for no other machine
     const std::scoped_lock lock{mutex};
     try {
         auto* const uploads = opened(connection);
@@ -275,7 +279,7 @@ HttpResponse TripsApi::answer(const HttpRequest& request) {
     }
 }
 
-HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request) {
+HttpResponse TripsApi::take_upload(UploadStore& uploads, const HttpRequest& request) {
     auto* const log = dynamic_cast<IncomingLog*>(request.body.get());
     if (log == nullptr) {
         return http_problem(422, "the body is empty, expected a trip log");
@@ -285,11 +289,11 @@ HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request
         return http_problem(
             422, fmt::format("the body's SHA-256 is {}, expected that of the path", found));
     }
-    const bool is_new = enqueue(uploads, log->file(), upload);
+    const bool is_new = uploads.enqueue(log->file(), upload);
     if (is_new) {
         queued_();
     }
-    const auto kept = find_upload(uploads, upload.sha256);
+    const auto kept = uploads.find_upload(upload.sha256);
     const bool is_own = kept && kept->owner == upload.owner;
     auto response =
         json_response(is_new ? 202 : 200,
@@ -299,10 +303,10 @@ HttpResponse TripsApi::take_upload(Database& uploads, const HttpRequest& request
     return response;
 }
 
-HttpResponse TripsApi::accept_invitation(Database& uploads, const HttpRequest& request) {
+HttpResponse TripsApi::accept_invitation(UploadStore& uploads, const HttpRequest& request) {
     try {
         const auto token =
-            take_invitation(uploads, token_in(request.header("authorization")), now_ms());
+            uploads.take_invitation(token_in(request.header("authorization")), now_ms());
         return token ? json_response(201, fmt::format(R"({{"token":"{}"}})", *token))
                      : http_problem(401,
                                     "the invitation was accepted before, has expired or is none");
@@ -330,20 +334,20 @@ TripsApi::follow(const HttpRequest& request, const Upload& upload, const AccessT
     return response;
 }
 
-HttpResponse TripsApi::list(Database& uploads, const AccessToken& token) const {
+HttpResponse TripsApi::list(UploadStore& uploads, const AccessToken& token) const {
     const auto owner = token.scope == TokenScope::operator_ ? "" : token.owner;
     std::vector<std::string> items;
-    for (const auto& upload : latest_uploads(uploads, owner, max_listed)) {
+    for (const auto& upload : uploads.latest_uploads(owner, max_listed)) {
         items.push_back(upload_json(upload));
     }
     return json_response(200, fmt::format(R"({{"trips":{}}})", json_array(items)));
 }
 
-HttpResponse TripsApi::one(Database& uploads,
+HttpResponse TripsApi::one(UploadStore& uploads,
                            const HttpRequest& request,
                            const std::string& sha256,
                            const AccessToken& token) {
-    const auto upload = find_upload(uploads, sha256);
+    const auto upload = uploads.find_upload(sha256);
     if (!upload || !is_visible(*upload, token)) {
         return http_problem(404, "there is no such trip of this token's owner");
     }
@@ -352,11 +356,13 @@ HttpResponse TripsApi::one(Database& uploads,
                    ? json_response(200, upload_json(*upload))
                    : follow(request, *upload, token);
     }
-    if (delete_upload(uploads, spool_of(store_), sha256)) {
+    if (uploads.delete_upload(sha256)) {
         return {.status = 204, .cache_control = "no-store"};
     }
     queued_();
-    return json_response(202, upload_json(*find_upload(uploads, sha256)));
+    const auto left = uploads.find_upload(sha256);
+    return left ? json_response(202, upload_json(*left))
+                : HttpResponse{.status = 204, .cache_control = "no-store"};
 }
 
 } // namespace macadam

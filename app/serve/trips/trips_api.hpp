@@ -3,14 +3,14 @@
 #include "app/http/http_server.hpp"
 #include "app/serve/trips/token_buckets.hpp"
 #include "app/serve/trips/upload_events.hpp"
-#include "storage/sqlite/sqlite.hpp"
+#include "app/serve/trips/upload_place.hpp"
 #include "storage/uploads/access_token.hpp"
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -26,7 +26,7 @@ struct TripsApiConfig {
     std::string staff_header{};
     std::size_t max_waiting = 10'000;                         ///< uploads in the queue
     std::uint64_t min_free_bytes = std::uint64_t{512} << 20U; ///< on the disk of the spool
-    double per_s = 2;                                         ///< requests of a token
+    double per_s = 2;                                         ///< requests of an owner of tokens
     double burst = 240;
     double per_address_s = 4;
     double burst_of_address = 480;
@@ -38,8 +38,11 @@ struct TripsApiConfig {
 /// (docs/reference/serve.md). Where nobody has made a token, there is nothing.
 class TripsApi {
 public:
+    /// \param place   null: the database has none, and takes no trips
     /// \param queued  called when there is something for a worker
-    TripsApi(std::filesystem::path store, TripsApiConfig config, std::function<void()> queued);
+    TripsApi(std::unique_ptr<UploadPlace> place,
+             TripsApiConfig config,
+             std::function<void()> queued);
 
     static bool has_path(std::string_view path) { return path.starts_with("/v1/"); }
 
@@ -66,38 +69,39 @@ public:
 
 private:
     /// Connection that is opened when it is first needed, as tokens may be made later.
-    Database* opened(std::optional<Database>& uploads) const;
+    UploadStore* opened(std::unique_ptr<UploadStore>& uploads) const;
 
     /// Finds what a request may do: by its token, or as its proxy says of a member of the staff.
-    std::optional<AccessToken> access_of(Database& uploads, const HttpRequest& request) const;
+    std::optional<AccessToken> access_of(UploadStore& uploads, const HttpRequest& request) const;
 
     std::optional<HttpResponse> refused_rate(const HttpRequest& request,
                                              const std::optional<AccessToken>& token);
     HttpAdmission
     admit_upload(const HttpRequest& request, const std::string& sha256, const AccessToken& token);
-    HttpResponse take_upload(Database& uploads, const HttpRequest& request);
-    static HttpResponse accept_invitation(Database& uploads, const HttpRequest& request);
+    HttpResponse take_upload(UploadStore& uploads, const HttpRequest& request);
+    static HttpResponse accept_invitation(UploadStore& uploads, const HttpRequest& request);
     HttpResponse follow(const HttpRequest& request, const Upload& upload, const AccessToken& token);
-    HttpResponse list(Database& uploads, const AccessToken& token) const;
-    HttpResponse one(Database& uploads,
+    HttpResponse list(UploadStore& uploads, const AccessToken& token) const;
+    HttpResponse one(UploadStore& uploads,
                      const HttpRequest& request,
                      const std::string& sha256,
                      const AccessToken& token);
 
-    std::filesystem::path store_;
+    std::unique_ptr<UploadPlace> place_;
     TripsApiConfig config_;
     std::function<void()> queued_;
     std::atomic<bool> is_crowd_ = false;
     UploadEvents events_;
-    std::optional<Database> of_network_; ///< of the thread of the network, which must not wait
-    TokenBuckets by_token_;
+    std::unique_ptr<UploadStore> of_network_; ///< of the thread of the network, which must not wait
+    TokenBuckets by_owner_;
     TokenBuckets by_address_;
     TokenBuckets failures_;
     /// Connection with the mutex that guards it.
     struct Guarded {
         std::mutex mutex;
-        std::optional<Database> uploads{};
+        std::unique_ptr<UploadStore> uploads{};
     };
+    Guarded of_checks_;
     Guarded of_readers_;
     Guarded of_writers_; ///< who wait for the disk, or for those who do
 };

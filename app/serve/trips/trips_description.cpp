@@ -125,7 +125,9 @@ void add_trip_paths(JsonObject& paths) {
         "post",
         JsonRaw{operation_text(
             {.id = "acceptInvitation",
-             .summary = "Exchange an invitation, sent as a token, for a token; once",
+             .summary = "Exchange an invitation, sent as a token, for a token; again within ten "
+                        "minutes, for "
+                        "another in its place",
              .responses =
                  {{201,
                    response_text(

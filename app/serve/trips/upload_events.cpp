@@ -3,7 +3,6 @@
 #include "estimator/common/error.hpp"
 #include "storage/text/json.hpp"
 #include "storage/text/utc.hpp"
-#include "storage/uploads/upload_database.hpp"
 
 #include <fmt/format.h>
 
@@ -57,8 +56,8 @@ std::string state_event(const Upload& upload) {
                        upload_json(upload));
 }
 
-UploadEvents::UploadEvents(std::filesystem::path store)
-    : store_{std::move(store)}, thread_{[this](const std::stop_token& stop) { work(stop); }} {}
+UploadEvents::UploadEvents(UploadPlace* place)
+    : place_{place}, thread_{[this](const std::stop_token& stop) { work(stop); }} {}
 
 std::shared_ptr<HttpStream> UploadEvents::follow(const std::string& sha256,
                                                  const std::string& token,
@@ -75,10 +74,10 @@ std::shared_ptr<HttpStream> UploadEvents::follow(const std::string& sha256,
     return stream;
 }
 
-bool UploadEvents::tell(Database& uploads, Followed& followed) {
+bool UploadEvents::tell(UploadStore& uploads, Followed& followed) {
     const auto token =
-        followed.staff ? followed.staff : find_token(uploads, followed.token, now_ms());
-    const auto upload = token ? find_upload(uploads, followed.sha256) : std::nullopt;
+        followed.staff ? followed.staff : uploads.find_token(followed.token, now_ms());
+    const auto upload = token ? uploads.find_upload(followed.sha256) : std::nullopt;
     if (!upload || !is_visible(*upload, *token)) {
         return false;
     }
@@ -97,13 +96,16 @@ bool UploadEvents::tell(Database& uploads, Followed& followed) {
 
 void UploadEvents::work(const std::stop_token& stop) {
     constexpr auto pause = 300ms; // a token is revoked within 1 s
-    std::optional<Database> uploads;
+    std::unique_ptr<UploadStore> uploads;
     std::unique_lock lock{mutex_};
     while (changed_.wait(lock, stop, [this] { return !followed_.empty(); }) &&
            !stop.stop_requested()) {
         try {
             if (!uploads) {
-                uploads = open_uploads(store_);
+                uploads = place_->open();
+            }
+            if (!uploads) {
+                throw InputError{"the last token was revoked"};
             }
             followed_.remove_if([&](Followed& each) {
                 const bool goes_on = !each.stream->is_closed() && tell(*uploads, each);

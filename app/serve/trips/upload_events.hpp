@@ -1,14 +1,13 @@
 #pragma once
 
 #include "app/http/http_stream.hpp"
-#include "storage/sqlite/sqlite.hpp"
+#include "app/serve/trips/upload_place.hpp"
 #include "storage/uploads/access_token.hpp"
 #include "storage/uploads/upload_queue.hpp"
 
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
-#include <filesystem>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -39,8 +38,8 @@ std::string state_event(const Upload& upload);
 /// also other programs make them.
 class UploadEvents {
 public:
-    /// \param store  road database whose uploads are followed
-    explicit UploadEvents(std::filesystem::path store);
+    /// \param place  of the uploads that are followed; null: there are none
+    explicit UploadEvents(UploadPlace* place);
     UploadEvents(const UploadEvents&) = delete;
     UploadEvents& operator=(const UploadEvents&) = delete;
     ~UploadEvents() = default;
@@ -71,9 +70,9 @@ private:
     void work(const std::stop_token& stop);
 
     /// Sends what is new. \returns false once the stream has ended.
-    static bool tell(Database& uploads, Followed& followed);
+    static bool tell(UploadStore& uploads, Followed& followed);
 
-    std::filesystem::path store_;
+    UploadPlace* place_;
     std::mutex mutex_; ///< guards followed_
     std::list<Followed> followed_;
     std::condition_variable_any changed_;

@@ -1,6 +1,7 @@
 #include "storage/store/fusion/chunk_states.hpp"
 
 #include "mapping/passes/trip_cutting.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/schema/store_schema.hpp"
 
 #include <algorithm>
@@ -19,6 +20,11 @@ bool is_chosen(const PassChoice& choice, const FusionInput& input) {
     return !(choice.cars_alone && input.reference) &&
            (!choice.vehicle || input.vehicle == *choice.vehicle) &&
            (!choice.period || is_in(*choice.period, input.utc_ms));
+}
+
+std::optional<std::int64_t> row_of_unknown_car(Database& database) {
+    auto select = database.prepare("SELECT id FROM vehicle WHERE pseudonym = ?");
+    return select.bind(unknown_car).step() ? std::optional{select.integer(0)} : std::nullopt;
 }
 
 /// Sets the lag of a pass from its aligned trace.
@@ -78,7 +84,8 @@ DriveSet drives_of(std::span<const ChunkPass> passes) {
 ChunkFusion::ChunkFusion(Database& database)
     : traces_{database}, passes_{database}, valid_from_{database}, cars_{read_calibrations(
                                                                        database)},
-      config_{read_fusion_config(database)}, limit_{read_max_trips_per_car_month(database)} {}
+      config_{read_fusion_config(database)}, limit_{read_max_trips_per_car_month(database),
+                                                    row_of_unknown_car(database)} {}
 
 std::vector<ChunkPass> ChunkFusion::valid_passes(std::int64_t chunk, std::int64_t segments) {
     auto passes = passes_.of(chunk, segments);

@@ -15,17 +15,6 @@ namespace {
 // Less is another area, or an overlap at the border of a neighbouring one.
 constexpr double min_common_share = 0.05;
 
-WrittenSegments segments_of(const RoadNetwork& roads) {
-    WrittenSegments all;
-    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
-        const auto link = link_at(roads, LinkId{i});
-        const int directions = (link.forward ? 1 : 0) + (link.backward ? 1 : 0);
-        all.segments += directions * std::int64_t{link.segments};
-        all.length_m += directions * (link.to_m - link.from_m);
-    }
-    return all;
-}
-
 void expect_common_roads(const ChangeSummary& roads,
                          const std::filesystem::path& store,
                          const std::string& network) {
@@ -39,14 +28,6 @@ void expect_common_roads(const ChangeSummary& roads,
                                      100 * share,
                                      network)};
     }
-}
-
-void update_extent(Database& database, const GeoBox& box) {
-    database
-        .prepare("UPDATE gpkg_contents SET min_x = ?, min_y = ?, max_x = ?, max_y = ?, last_change"
-                 " = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE data_type = 'features'"
-                 " AND table_name IN ('segment', 'roughness')")
-        .run(box.west_deg, box.south_deg, box.east_deg, box.north_deg);
 }
 
 std::string words_for_audit(const NetworkUpdate& update, const std::string& network) {
@@ -87,7 +68,7 @@ NetworkUpdate StoreMaintenance::update_network(const RoadNetwork& before,
     update.lost_sections = moved.lost_sections;
     update.passes_kept -= moved.carried + moved.lost;
     update.changed = true;
-    const auto segments = segments_of(after);
+    const auto segments = count_segments(after);
     update_network_meta(
         database, {source.name, source.attribution, hash, segments.segments, segments.length_m});
     update_extent(database, extent_of(after));

@@ -1,7 +1,5 @@
 #include "estimator/common/error.hpp"
 #include "mapping/fusion/utc_month.hpp"
-#include "mapping/geometry/antimeridian.hpp"
-#include "mapping/geometry/area.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
 #include "storage/store/reader/pass_choice.hpp"
@@ -21,49 +19,6 @@
 
 namespace macadam {
 namespace {
-
-/// Tests whether the straight line from `a` to `b` intersects the box (Liang and Barsky's
-/// clipping).
-bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
-    double enter = 0, leave = 1;
-    const auto cut = [&](double from, double step, double low, double high) {
-        if (step == 0) {
-            return low <= from && from <= high;
-        }
-        const auto [near, far] = std::minmax({(low - from) / step, (high - from) / step});
-        enter = std::max(enter, near);
-        leave = std::min(leave, far);
-        return enter <= leave;
-    };
-    return cut(a.lon_deg, b.lon_deg - a.lon_deg, box.west_deg, box.east_deg) &&
-           cut(a.lat_deg, b.lat_deg - a.lat_deg, box.south_deg, box.north_deg);
-}
-
-bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
-    if (contains(box, line.front())) { // fast path for most segments
-        return true;
-    }
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        if (meets(box, line[i - 1], line[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// Parts of a filter's box on the globe, in which segments lie without crossing its edges.
-std::vector<GeoBox> boxes_of(const SegmentFilter& filter) {
-    return filter.box ? parts_on_globe(*filter.box) : std::vector<GeoBox>{};
-}
-
-/// Tests whether a line, which may cross the antimeridian, intersects one of the boxes.
-bool meets_any(const std::vector<GeoBox>& boxes, const std::vector<GeoPoint>& line) {
-    const auto meets_one = [&](const std::vector<GeoPoint>& part) {
-        return std::ranges::any_of(boxes, [&](const GeoBox& box) { return meets(box, part); });
-    };
-    return crosses_antimeridian(line) ? std::ranges::any_of(cut_at_antimeridian(line), meets_one)
-                                      : meets_one(line);
-}
 
 // -------------------------------------------------------------------------------------- records
 
@@ -211,14 +166,13 @@ private:
 class Conditions {
 public:
     Conditions(const SegmentFilter& filter, const ClassTable& classes)
-        : filter_{&filter}, classes_{&classes}, boxes_{boxes_of(filter)}, name_part_{case_folded(
-                                                                              filter.name_part)} {}
+        : filter_{&filter}, classes_{&classes}, place_{filter}, name_part_{case_folded(
+                                                                    filter.name_part)} {}
 
     bool hold_for(const SegmentRecord& record) const {
         const auto& key = record.segment.key;
         return (!filter_->with_state_only || record.state) &&
-               (boxes_.empty() || meets_any(boxes_, record.segment.line)) &&
-               (!filter_->area || filter_->area->intersects(record.segment.line)) &&
+               place_.holds_for(record.segment.line) &&
                (!filter_->way_id || *filter_->way_id == key.way_id) &&
                (!filter_->key || *filter_->key == key) &&
                (name_part_.empty() ||
@@ -240,7 +194,7 @@ private:
 
     const SegmentFilter* filter_;
     const ClassTable* classes_;
-    std::vector<GeoBox> boxes_; ///< empty: everywhere
+    PlaceCondition place_;
     std::string name_part_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "mapping/geometry/antimeridian.hpp"
 #include "mapping/geometry/area.hpp"
+#include "mapping/geometry/box_intersection.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/text/case_folding.hpp"
 
@@ -173,6 +174,14 @@ void each_segment_row(StatementCache& statements,
     case AccessPath::all:
         run();
     }
+}
+
+PlaceCondition::PlaceCondition(const SegmentFilter& filter)
+    : boxes_{filter.box ? parts_on_globe(*filter.box) : std::vector<GeoBox>{}}, area_{filter.area} {
+}
+
+bool PlaceCondition::holds_for(std::span<const GeoPoint> line) const {
+    return (boxes_.empty() || intersects_any(boxes_, line)) && (!area_ || area_->intersects(line));
 }
 
 } // namespace macadam

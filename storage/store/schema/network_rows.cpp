@@ -202,6 +202,25 @@ WrittenSegments write_segments(Database& database,
     return written;
 }
 
+WrittenSegments count_segments(const RoadNetwork& roads) {
+    WrittenSegments all;
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
+        const auto link = link_at(roads, LinkId{i});
+        const int directions = (link.forward ? 1 : 0) + (link.backward ? 1 : 0);
+        all.segments += directions * std::int64_t{link.segments};
+        all.length_m += directions * (link.to_m - link.from_m);
+    }
+    return all;
+}
+
+void update_extent(Database& database, const GeoBox& box) {
+    database
+        .prepare("UPDATE gpkg_contents SET min_x = ?, min_y = ?, max_x = ?, max_y = ?, last_change"
+                 " = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE data_type = 'features'"
+                 " AND table_name IN ('segment', 'roughness')")
+        .run(box.west_deg, box.south_deg, box.east_deg, box.north_deg);
+}
+
 std::vector<Way> read_ways(Database& database) {
     auto select = database.prepare(
         "SELECT way_id, name, highway, oneway, node_ids, points, speed_limit_cmps, turns"

@@ -40,6 +40,12 @@ WrittenSegments write_segments(Database& database,
                                const Progress& progress,
                                const std::vector<bool>& left_out = {});
 
+/// Segments that write_segments would write.
+WrittenSegments count_segments(const RoadNetwork& roads);
+
+/// Updates the box around the segments that the GeoPackage states.
+void update_extent(Database& database, const GeoBox& box);
+
 /// Reads the ways in the order of their ids.
 ///
 /// \throws InputError  if a way is not a valid polyline.

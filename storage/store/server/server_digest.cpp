@@ -6,8 +6,9 @@
 #include "storage/store/rows/digest_text.hpp"
 #include "storage/store/server/server_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -37,18 +38,41 @@ void add_chunk(Sha256& hash, const SegmentKey& first, std::vector<ListedPass>& p
     passes.clear();
 }
 
+/// Sources of the rows over which a digest is, of all chunks or of some.
+struct DigestSources {
+    std::string drives = "macadam.drive";
+    std::string states = "macadam.segment_state AS state JOIN macadam.segment"
+                         " ON segment.cell = state.cell AND segment.fid = state.fid";
+    std::string events = "macadam.event JOIN macadam.segment ON segment.fid = event.segment";
+    std::string searches = "macadam.event_search"; ///< of trips
+};
+
+DigestSources sources_of(std::span<const ServerChunk> chunks, std::uint32_t segments_per_chunk) {
+    const auto drives =
+        wanted_chunks(chunks) +
+        join_each("drive", "drive", "drive.cell = wanted.cell AND drive.chunk = wanted.chunk");
+    return {drives,
+            wanted_chunks(chunks) + join_states(segments_per_chunk),
+            wanted_chunks(chunks) + join_segments(segments_per_chunk) +
+                join_each("event", "event", "event.segment = segment.fid"),
+            fmt::format("(SELECT DISTINCT drive.trip FROM {}) AS driven JOIN macadam.event_search"
+                        " ON event_search.trip = driven.trip",
+                        drives)};
+}
+
 void add_passes(Sha256& hash,
                 ServerConnection& server,
+                const DigestSources& sources,
                 std::uint32_t segments_per_chunk,
                 const Progress& progress) {
     CopyReader drives{server,
-                      std::string{"(SELECT segment.way_id, segment.direction, segment.seq,"
+                      fmt::format("(SELECT segment.way_id, segment.direction, segment.seq,"
                                   " trip.sha256, trip.reference_ppm IS NOT NULL, drive.body"
-                                  " FROM macadam.drive"
-                                  " JOIN macadam.segment ON segment.cell = drive.cell"
+                                  " FROM {} JOIN macadam.segment ON segment.cell = drive.cell"
                                   " AND segment.fid = drive.chunk"
-                                  " JOIN macadam.trip ON trip.id = drive.trip"} +
-                          order_of_server_keys + ")",
+                                  " JOIN macadam.trip ON trip.id = drive.trip {})",
+                                  sources.drives,
+                                  order_of_server_keys),
                       "drive",
                       6};
     std::optional<SegmentKey> chunk;
@@ -70,13 +94,13 @@ void add_passes(Sha256& hash,
     }
 }
 
-void add_states(Sha256& hash, ServerConnection& server) {
+void add_states(Sha256& hash, ServerConnection& server, const DigestSources& sources) {
     CopyReader states{server,
-                      std::string{"(SELECT segment.way_id, segment.direction, segment.seq, "} +
-                          server_state_columns +
-                          " FROM macadam.segment_state AS state JOIN macadam.segment"
-                          " ON segment.cell = state.cell AND segment.fid = state.fid" +
-                          order_of_server_keys + ")",
+                      fmt::format("(SELECT segment.way_id, segment.direction, segment.seq, {}"
+                                  " FROM {} {})",
+                                  server_state_columns,
+                                  sources.states,
+                                  order_of_server_keys),
                       "segment_state",
                       3 + server_state_column_count};
     while (states.next()) {
@@ -85,10 +109,11 @@ void add_states(Sha256& hash, ServerConnection& server) {
     }
 }
 
-void add_events(Sha256& hash, ServerConnection& server) {
+void add_events(Sha256& hash, ServerConnection& server, const DigestSources& sources) {
     CopyReader searched{server,
-                        "(SELECT trip.sha256 FROM macadam.event_search JOIN macadam.trip"
-                        " ON trip.id = event_search.trip ORDER BY trip.sha256 COLLATE \"C\")",
+                        fmt::format("(SELECT trip.sha256 FROM {} JOIN macadam.trip ON trip.id ="
+                                    " event_search.trip ORDER BY trip.sha256 COLLATE \"C\")",
+                                    sources.searches),
                         "event_search",
                         1};
     while (searched.next()) {
@@ -97,11 +122,12 @@ void add_events(Sha256& hash, ServerConnection& server) {
     constexpr int numbers = 8; // occurrence and those after it
     CopyReader events{
         server,
-        std::string{"(SELECT segment.segment, trip.sha256, occurrence, kind, track, at_mm,"
-                    " place_sd_mm, size_um, sd_um, length_mm FROM macadam.event"
-                    " JOIN macadam.segment ON segment.fid = event.segment"
-                    " JOIN macadam.trip ON trip.id = event.trip"} +
-            order_of_server_keys + ", trip.sha256 COLLATE \"C\", occurrence, number)",
+        fmt::format("(SELECT segment.segment, trip.sha256, occurrence, kind, track, at_mm,"
+                    " place_sd_mm, size_um, sd_um, length_mm FROM {}"
+                    " JOIN macadam.trip ON trip.id = event.trip"
+                    " {}, trip.sha256 COLLATE \"C\", occurrence, number)",
+                    sources.events,
+                    order_of_server_keys),
         "event",
         2 + numbers};
     while (events.next()) {
@@ -117,11 +143,13 @@ void add_events(Sha256& hash, ServerConnection& server) {
 
 std::string digest_of_server(ServerConnection& server,
                              std::uint32_t segments_per_chunk,
-                             const Progress& progress) {
+                             const Progress& progress,
+                             const std::optional<std::span<const ServerChunk>>& chunks) {
+    const auto sources = chunks ? sources_of(*chunks, segments_per_chunk) : DigestSources{};
     Sha256 hash;
-    add_passes(hash, server, segments_per_chunk, progress);
-    add_states(hash, server);
-    add_events(hash, server);
+    add_passes(hash, server, sources, segments_per_chunk, progress);
+    add_states(hash, server, sources);
+    add_events(hash, server, sources);
     return hash.hex();
 }
 

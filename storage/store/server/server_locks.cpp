@@ -12,6 +12,7 @@ constexpr int of_database = 0x6d616361;
 constexpr int of_imports = 0x6d616362;
 constexpr int of_cells = 0x6d616363;
 constexpr int of_old_changes = 0x6d616364;
+constexpr int of_deletions = 0x6d616365;
 constexpr int of_all_places = -1; // beside the numbers of cells
 
 } // namespace
@@ -73,6 +74,11 @@ void see_all_cells(ServerConnection& server) {
 bool try_take_old_changes(ServerConnection& server) {
     return server.number(fmt::format("SELECT pg_try_advisory_xact_lock({}, 0)::integer",
                                      of_old_changes)) != 0;
+}
+
+bool try_take_deletions(ServerConnection& server) {
+    return server.number(
+               fmt::format("SELECT pg_try_advisory_xact_lock({}, 0)::integer", of_deletions)) != 0;
 }
 
 void release_database(ServerConnection& server) {

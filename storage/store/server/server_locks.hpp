@@ -58,6 +58,9 @@ void release_import_lock(ServerConnection& server, std::int32_t import);
 /// connection has it.
 bool try_take_old_changes(ServerConnection& server);
 
+/// Takes the deletion of logs whose senders ask for it, in the same way.
+bool try_take_deletions(ServerConnection& server);
+
 /// Tests whether another connection imports; with a number, that import.
 bool is_other_importing(ServerConnection& server, const std::optional<std::int32_t>& import);
 

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/rows/segment_row.hpp"
 
 #include <fmt/format.h>
@@ -143,6 +144,48 @@ std::vector<DrivePass> server_passes_in(const ServerConnection& server,
                                      server.address(),
                                      error.what())};
     }
+}
+
+std::string wanted_chunks(std::span<const ServerChunk> chunks) {
+    std::vector<std::int64_t> cells, rows;
+    for (const auto& [cell, row] : chunks) {
+        cells.push_back(cell);
+        rows.push_back(row);
+    }
+    return fmt::format("unnest('{}'::integer[], '{}'::bigint[]) AS wanted (cell, chunk)",
+                       array_of(cells),
+                       array_of(rows));
+}
+
+std::string
+join_each(std::string_view table, std::string_view alias, const std::string& condition) {
+    return fmt::format(" CROSS JOIN LATERAL (SELECT * FROM macadam.{0} AS {1} WHERE {2} OFFSET 0)"
+                       " AS {1}",
+                       table,
+                       alias,
+                       condition);
+}
+
+std::string join_segments(std::uint32_t segments_per_chunk) {
+    return join_each("segment",
+                     "segment",
+                     fmt::format("segment.cell = wanted.cell AND segment.fid >= wanted.chunk AND"
+                                 " segment.fid < wanted.chunk + {} AND segment.chunk ="
+                                 " wanted.chunk",
+                                 segments_per_chunk));
+}
+
+std::string join_states(std::uint32_t segments_per_chunk) {
+    // From chunks to states, which another server may have: one question a chunk.
+    return join_each("segment_state",
+                     "state",
+                     fmt::format("state.cell = wanted.cell AND state.fid >= wanted.chunk AND"
+                                 " state.fid < wanted.chunk + {}",
+                                 segments_per_chunk)) +
+           join_each("segment",
+                     "segment",
+                     "segment.cell = state.cell AND segment.fid = state.fid AND segment.chunk ="
+                     " wanted.chunk");
 }
 
 void expect_no_stop(const ServerConnection& server, const Progress& progress) {

@@ -9,7 +9,9 @@
 #include "storage/store/server/server_tables.hpp"
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +52,30 @@ void continue_row_numbers(ServerConnection& server, const std::string& table);
 std::vector<DrivePass> server_passes_in(const ServerConnection& server,
                                         std::string_view body,
                                         std::uint32_t segments_per_chunk);
+
+/// Chunk on a server: its map tile, and the row of its first segment.
+struct ServerChunk {
+    std::int32_t cell;
+    std::int64_t row;
+    friend auto operator<=>(const ServerChunk&, const ServerChunk&) = default;
+};
+
+/// \name Sources of rows of some chunks, as SQL: the chunks, to which tables are joined
+/// @{
+
+/// Chunks as rows of `wanted` (cell, chunk).
+std::string wanted_chunks(std::span<const ServerChunk> chunks);
+
+/// Joins rows of a table to each of the rows before, whatever the planner expects of their number:
+/// where new tables have no statistics it would rather read all of them (OFFSET 0 keeps it out).
+std::string join_each(std::string_view table, std::string_view alias, const std::string& condition);
+
+/// Joins the segments of the chunks, whose rows are consecutive.
+std::string join_segments(std::uint32_t segments_per_chunk);
+
+/// Joins their states, as `state`, and the segments of these.
+std::string join_states(std::uint32_t segments_per_chunk);
+/// @}
 
 /// \throws InputError  if a stop is requested.
 void expect_no_stop(const ServerConnection& server, const Progress& progress);

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/jobs/job_schema.hpp"
+#include "storage/jobs/upload_schema.hpp"
 #include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_schema_sql.hpp"
 #include "storage/store/server/server_tables.hpp"
@@ -94,6 +95,9 @@ std::vector<Migration> migrations() {
     all.push_back({7, "publications of crowds", publications_migration_sql()});
     all.push_back({8, "removal of old changes", old_changes_migration_sql});
     all.push_back({9, "times of passes of the whole", seen_migration_sql});
+    all.push_back({10, "counts of logs", job_count_schema()});
+    all.push_back({11, "narrower rights", narrow_rights_migration_sql});
+    all.push_back({12, "tokens and senders of logs", upload_schema()});
     return all;
 }
 

@@ -249,6 +249,67 @@ COMMENT ON INDEX macadam.segment_state_first_seen IS 'The first pass of all';
 COMMENT ON INDEX macadam.segment_state_last_seen IS 'The last pass of all';
 )";
 
+// Marks tell trips apart, and whoever imports adds trips but changes and removes none. What QGIS
+// shows explains its columns.
+const char* const narrow_rights_migration_sql = R"(
+DO $$
+BEGIN
+    IF EXISTS (SELECT FROM pg_roles WHERE rolname = 'macadam_reader')
+       AND has_table_privilege('macadam_reader', 'macadam.chunk_dirty', 'SELECT') THEN
+        REVOKE SELECT ON macadam.chunk_dirty FROM macadam_reader;
+        GRANT SELECT (chunk) ON macadam.chunk_dirty TO macadam_reader;
+    END IF;
+    IF EXISTS (SELECT FROM pg_roles WHERE rolname = 'macadam_importer') THEN
+        REVOKE UPDATE, DELETE ON macadam.vehicle, macadam.trip, macadam.row_reason, macadam.event,
+            macadam.event_search FROM macadam_importer;
+        REVOKE UPDATE ON macadam.drive, macadam.audit FROM macadam_importer;
+        GRANT UPDATE (trip_id) ON macadam.trip TO macadam_importer; -- a commit that waits for a standby
+    END IF;
+END $$;
+COMMENT ON COLUMN macadam.pass.cell IS 'Map tile of zoom 8 that holds the first node of the way, as the number of its quadkey';
+COMMENT ON COLUMN macadam.pass.segment IS 'Row of the segment';
+COMMENT ON COLUMN macadam.pass.trip IS 'Row of the trip';
+COMMENT ON COLUMN macadam.pass.occurrence IS 'Number of earlier passes of the trip over the segment';
+COMMENT ON COLUMN macadam.pass.iri_left_um IS 'IRI of the left track, um/m';
+COMMENT ON COLUMN macadam.pass.iri_right_um IS 'IRI of the right track, um/m';
+COMMENT ON COLUMN macadam.pass.iri_centre_um IS 'IRI of the mean of both profiles (HRI), um/m';
+COMMENT ON COLUMN macadam.pass.iri_um IS 'IRI that is fused, um/m';
+COMMENT ON COLUMN macadam.pass.sd_um IS 'Standard uncertainty of iri_um, um/m';
+COMMENT ON COLUMN macadam.pass.centre_only IS 'MRI was estimated from HRI';
+COMMENT ON COLUMN macadam.pass.validity IS 'Sum of 1 too slow, 2 start-up, 4 gap, 8 indicative, 16 lateral vibration alone';
+COMMENT ON COLUMN macadam.pass.speed_mmps IS 'Mean speed, mm/s';
+COMMENT ON COLUMN macadam.pass.covered_mm IS 'Length of the segment that was driven, mm';
+COMMENT ON COLUMN macadam.pass.confidence_ppm IS 'Confidence of the map matching, ppm';
+COMMENT ON COLUMN macadam.pass.t_ms IS 'Time of the middle since the start of the trip, ms';
+COMMENT ON COLUMN macadam.pass.drive IS 'Number of the drive over its chunk; NULL: not known';
+COMMENT ON COLUMN macadam.roughness.fid IS 'Row of the segment';
+COMMENT ON COLUMN macadam.roughness.geom IS 'Line';
+COMMENT ON COLUMN macadam.roughness.segment IS 'Key: way, + forward or - backward, number';
+COMMENT ON COLUMN macadam.roughness.way_id IS 'Way that it is a part of';
+COMMENT ON COLUMN macadam.roughness.name IS 'Name of the road';
+COMMENT ON COLUMN macadam.roughness.highway IS 'Class of OpenStreetMap';
+COMMENT ON COLUMN macadam.roughness.direction IS 'forward or backward along the way';
+COMMENT ON COLUMN macadam.roughness.from_m IS 'Begin along the way, m';
+COMMENT ON COLUMN macadam.roughness.to_m IS 'End along the way, m';
+COMMENT ON COLUMN macadam.roughness.iri IS 'IRI, mm/m';
+COMMENT ON COLUMN macadam.roughness.iri_sd IS 'Standard uncertainty of iri, mm/m';
+COMMENT ON COLUMN macadam.roughness.iri_low IS 'Lower end of its interval of 90 %, mm/m';
+COMMENT ON COLUMN macadam.roughness.iri_high IS 'Upper end of its interval of 90 %, mm/m';
+COMMENT ON COLUMN macadam.roughness.iri_left IS 'IRI of the left track, mm/m';
+COMMENT ON COLUMN macadam.roughness.iri_right IS 'IRI of the right track, mm/m';
+COMMENT ON COLUMN macadam.roughness."index" IS 'MRI, or HRI>MRI where it was estimated from HRI';
+COMMENT ON COLUMN macadam.roughness.class IS 'Roughness class';
+COMMENT ON COLUMN macadam.roughness.passes IS 'Passes of cars';
+COMMENT ON COLUMN macadam.roughness.vehicles IS 'Cars';
+COMMENT ON COLUMN macadam.roughness.first_seen IS 'Day of the first pass, UTC';
+COMMENT ON COLUMN macadam.roughness.last_seen IS 'Day of the last pass, UTC';
+COMMENT ON COLUMN macadam.roughness.trend_per_year IS 'Trend of iri, mm/m a year';
+COMMENT ON COLUMN macadam.roughness.trend_sd IS 'Its standard uncertainty, mm/m a year';
+COMMENT ON COLUMN macadam.roughness.changed IS 'Day of the first pass after a step of the road, UTC';
+COMMENT ON COLUMN macadam.roughness.change IS 'Level after it minus level before, mm/m';
+COMMENT ON COLUMN macadam.roughness.validity IS 'What limits the value, in words';
+)";
+
 namespace {
 
 // A crowd's raw logs leave the object store whatever became of them.

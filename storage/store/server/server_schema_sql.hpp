@@ -30,4 +30,8 @@ extern const char* const old_changes_migration_sql;
 /// Migration 9: times of the first and last pass are found by indexes.
 extern const char* const seen_migration_sql;
 
+/// Migration 11: readers see no marks of single trips, importers change and remove none, and views
+/// explain their columns.
+extern const char* const narrow_rights_migration_sql;
+
 } // namespace macadam

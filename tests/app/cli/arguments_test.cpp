@@ -62,6 +62,16 @@ TEST(Arguments, LeaveTheOperandToItselfAfterAListOfValues) {
     EXPECT_EQ(arguments.operand("STORE"), "store.gpkg");
 }
 
+TEST(Arguments, KeepEachValueOfAnOptionThatCanBeRepeatedAndOtherwiseTheLast) {
+    constexpr std::array both{repeatable({"--site", "SITE", "These."}),
+                              Option{"--length", "METRES", "How long."}};
+    const Arguments arguments{
+        both, operands, {"--site", "a", "--length", "1", "roads", "--site=b", "--length", "2"}};
+    EXPECT_THAT(arguments.values("--site"), ElementsAre("a", "b"));
+    EXPECT_THAT(arguments.values("--length"), ElementsAre("2"));
+    EXPECT_EQ(arguments.operand("STORE"), "roads");
+}
+
 TEST(Arguments, LeaveTheOperandsToThemselvesBesideAValueThatMayBeLeftOut) {
     constexpr std::array excel{Option{"--excel", "[LOCALE]", "For Excel."}};
     constexpr std::array two{Operand{"A", "One."}, Operand{"B", "Another."}};

@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 namespace macadam::testing {
 namespace {
@@ -41,7 +42,9 @@ struct TakingServer {
         return made;
     }
     explicit TakingServer(std::chrono::milliseconds body_time = 60s)
-        : server{limits(body_time), [this] {
+        : TakingServer{limits(body_time)} {}
+    explicit TakingServer(const HttpServerConfig& config)
+        : server{config, [this] {
                      auto made = text_handlers();
                      made.admit = [this](const HttpRequest& request) -> HttpAdmission {
                          if (request.path == "/no") {
@@ -132,6 +135,23 @@ TEST(HttpBodies, ClosesConnectionsWhoseBodyIsLate) {
     EXPECT_TRUE(slow.is_closed());
     ends = true;
     drip.join();
+}
+
+TEST(HttpBodies, GivesAdmittedUploadsMoreTimeThanOthers) {
+    auto limits = TakingServer::limits(1s);
+    limits.slowest_upload_bytes = 1; // a second
+    limits.slowest_bytes = 1'000'000;
+    const TakingServer taking{limits};
+    for (const auto& [path, status] : {std::pair{"/a", 200}, {"/no", 0}}) {
+        HttpClient slow{taking.server.port()};
+        slow.send(
+            fmt::format("PUT {} HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1001\r\n\r\n{}",
+                        path,
+                        std::string(1000, 'x')));
+        std::this_thread::sleep_for(2s); // longer than a refused one has
+        slow.send("x");
+        EXPECT_EQ(slow.answer().status, status) << path;
+    }
 }
 
 } // namespace

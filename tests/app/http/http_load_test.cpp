@@ -1,9 +1,11 @@
 // Many clients at once, slow ones, and a slow disk.
 
 #include "app/http/http_server.hpp"
+#include "app/http/limits/client_network.hpp"
 #include "support/http/http_client.hpp"
 #include "support/http/text_server.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,6 +99,62 @@ TEST(HttpLoad, LetsOneLaneWaitForNoOther) {
     }
     EXPECT_EQ(answered, 3);
     EXPECT_EQ(refused, 1);
+}
+
+TEST(HttpLoad, LetsOneClientHaveAFewRequestsInALaneAlone) {
+    auto lanes = text_config();
+    lanes.behind_proxy = true;
+    lanes.lanes = {{.workers = 1, .max_waiting = 100, .max_per_client = 2}};
+    auto made = text_handlers();
+    std::promise<void> go;
+    made.lane = [](const HttpRequest& request) -> std::size_t { return request.path == "/hung"; };
+    made.answer = [may_go = go.get_future().share()](const HttpRequest& request,
+                                                     std::size_t) -> HttpResponse {
+        if (request.path == "/hung") {
+            may_go.wait();
+        }
+        return {.body = "a"};
+    };
+    std::atomic<int> refused = 0;
+    made.record = [&](const HttpRecord& record) { refused += record.status == 429 ? 1 : 0; };
+    const HttpServer server{lanes, made};
+    std::deque<HttpClient> clients;
+    const auto ask = [&](std::string_view path, std::string_view address) {
+        clients.emplace_back(server.port())
+            .send(fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\nX-Forwarded-For: {}\r\n\r\n",
+                              path,
+                              address));
+    };
+    for (int i = 1; i <= 3; ++i) { // addresses of one client, who has 64 bits of them
+        ask("/hung", fmt::format("2001:db8::{}", i));
+    }
+    while (refused < 1) { // the test's time limit ends it
+        std::this_thread::sleep_for(1ms);
+    }
+    ask("/hung", "2001:db8:0:1::1");
+    ask("/a", "2001:db8::1");
+    EXPECT_EQ(clients.back().answer().status, 200); // of another lane
+    go.set_value();
+    clients.pop_back();
+    EXPECT_EQ(clients.back().answer().status, 200);
+    clients.pop_back();
+    int answered = 0;
+    for (auto& client : clients) {
+        answered += client.answer().status == 200 ? 1 : 0;
+    }
+    EXPECT_EQ(answered, 2);
+    EXPECT_EQ(refused, 1);
+    EXPECT_EQ(get(server.port(), "/hung", "X-Forwarded-For: 2001:db8::1\r\n").status, 200);
+}
+
+TEST(HttpLoad, TellsClientsApartByTheirNetworks) {
+    EXPECT_EQ(client_network("2001:db8:1:2:3:4:5:6"), "2001:db8:1:2::/64");
+    EXPECT_EQ(client_network("2001:db8:1:2::"), "2001:db8:1:2::/64");
+    EXPECT_NE(client_network("2001:db8:1:3::"), "2001:db8:1:2::/64");
+    EXPECT_EQ(client_network("203.0.113.9"), "203.0.113.9");
+    EXPECT_EQ(client_network("::ffff:203.0.113.9"), "203.0.113.9"); // not one with all of IPv4
+    EXPECT_EQ(client_network("unknown"), "unknown");
+    EXPECT_EQ(client_network(""), "");
 }
 
 /// Body on a disk that hangs until it is told to go on.

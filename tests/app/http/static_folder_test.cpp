@@ -1,6 +1,8 @@
 #include "app/http/static_folder.hpp"
 
+#include "app/http/compressed_files.hpp"
 #include "app/http/http_server.hpp"
+#include "storage/files/gzip.hpp"
 #include "support/files/files.hpp"
 #include "support/http/http_client.hpp"
 #include "support/http/text_server.hpp"
@@ -10,9 +12,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -23,6 +28,9 @@ struct FileWorld {
         written(folder, "site/index.html", "<html>");
         written(folder, "site/a/roads.pmtiles", "0123456789");
         written(folder, "site/.hidden", "no");
+        written(folder, "site/site.js", script);
+        written(folder, "site/large.pmtiles", script);
+        written(folder, "site/large.png", script);
         written(folder, "secret.txt", "no");
         std::filesystem::create_symlink(folder / "secret.txt", folder / "site/link.txt");
         HttpHandlers made;
@@ -32,6 +40,7 @@ struct FileWorld {
         server.emplace(text_config(), made);
     }
     std::filesystem::path folder = test_folder();
+    std::string script = std::string(20'000, 'a') + "b";
     std::optional<HttpServer> server;
 };
 
@@ -101,6 +110,74 @@ TEST(StaticFolder, SendsRangesOfTheSameFileAlone) {
         206);
     EXPECT_EQ(get(port, "/a/roads.pmtiles", "Range: bytes=0-1\r\nIf-Range: \"old\"\r\n").status,
               200);
+}
+
+TEST(StaticFolder, CompressesWhatIsTextForThoseWhoTakeIt) {
+    const FileWorld world;
+    const auto port = world.server->port();
+    const std::string gzip = "Accept-Encoding: gzip\r\n";
+    const auto before = std::distance(std::filesystem::directory_iterator{world.folder / "site"},
+                                      std::filesystem::directory_iterator{});
+    for (int i = 0; i < 2; ++i) { // the second time from memory
+        const auto packed = get(port, "/site.js", gzip);
+        EXPECT_EQ(packed.status, 200);
+        EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
+        EXPECT_EQ(packed.headers.at("content-type"), "text/javascript; charset=utf-8");
+        EXPECT_EQ(packed.headers.at("vary"), "Accept-Encoding");
+        EXPECT_LT(packed.body.size(), 1000U);
+        EXPECT_EQ(gunzipped(packed.body), world.script);
+    }
+    const auto plain = get(port, "/site.js");
+    EXPECT_FALSE(plain.headers.contains("content-encoding"));
+    EXPECT_EQ(plain.headers.at("vary"), "Accept-Encoding");
+    EXPECT_EQ(plain.body, world.script);
+    for (const auto* const picture : {"/large.pmtiles", "/large.png"}) {
+        EXPECT_EQ(get(port, picture, gzip).body, world.script) << picture;
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator{world.folder / "site"},
+                            std::filesystem::directory_iterator{}),
+              before); // the folder belongs to its owner
+}
+
+TEST(StaticFolder, SendsRangesOfTheFileAsItIs) {
+    const FileWorld world;
+    const auto port = world.server->port();
+    const std::string gzip = "Accept-Encoding: gzip\r\n";
+    const auto packed = get(port, "/site.js", gzip).headers.at("etag");
+    const auto range = get(port, "/site.js", gzip + "Range: bytes=20000-\r\n");
+    EXPECT_EQ(range.status, 206);
+    EXPECT_FALSE(range.headers.contains("content-encoding"));
+    EXPECT_EQ(range.body, "b");
+    EXPECT_NE(range.headers.at("etag"), packed); // parts of the two are never put together
+    const auto other =
+        get(port, "/site.js", gzip + "Range: bytes=20000-\r\nIf-Range: " + packed + "\r\n");
+    EXPECT_EQ(other.status, 200);
+}
+
+TEST(StaticFolder, CompressesAFileAnewOnceItHasChanged) {
+    const FileWorld world;
+    const std::string gzip = "Accept-Encoding: gzip\r\n";
+    const auto before = get(world.server->port(), "/site.js", gzip);
+    written(world.folder, "site/site.js", std::string(20'002, 'c'));
+    const auto after = get(world.server->port(), "/site.js", gzip);
+    EXPECT_NE(after.headers.at("etag"), before.headers.at("etag"));
+    EXPECT_EQ(gunzipped(after.body), std::string(20'002, 'c'));
+}
+
+TEST(CompressedFiles, KeepTheLatestWithinTheirRoom) {
+    const auto folder = test_folder();
+    CompressedFiles kept{50}; // bytes: one of these files
+    std::vector<HttpFile> files;
+    for (const auto* const name : {"a", "b"}) {
+        const auto file = written(folder, name, std::string(5000, *name));
+        files.push_back({std::make_shared<const HttpOpenFile>(file), 5000});
+    }
+    const auto first = kept.get("a", files[0]);
+    EXPECT_EQ(kept.get("a", files[0]), first);
+    kept.get("b", files[1]);
+    EXPECT_NE(kept.get("a", files[0]), first);
+    written(folder, "b", std::string(6000, 'c'));
+    EXPECT_EQ(kept.get("changed", files[1]), nullptr); // it is not what was opened
 }
 
 TEST(StaticFolder, LeadsFromFoldersToTheirPages) {

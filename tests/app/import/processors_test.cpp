@@ -87,5 +87,29 @@ TEST(Processors, GiveOneDigestForASimulatedFleet) {
     EXPECT_THAT(digests([&] { return imported(folder, {"--network", roads}, trips); }), SizeIs(1));
 }
 
+TEST(Processors, GiveOneNetworkForALayerInMetresOnTheGround) {
+    const auto folder = fresh_folder();
+    std::string points;
+    for (int i = 0; i < 2000; ++i) { // 15 km in UTM zone 33
+        points += fmt::format("{}[{:.3f},{:.3f}]",
+                              points.empty() ? "" : ",",
+                              500'000 + 7.313 * i,
+                              5'300'000 + 0.731 * (i * 37 % 101));
+    }
+    write_file(folder / "road.geojson",
+               R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+               R"("urn:ogc:def:crs:EPSG::25833"}},"features":[{"type":"Feature","properties":)"
+               R"({"highway":"road"},"geometry":{"type":"LineString","coordinates":[)" +
+                   points + "]}}]}");
+    const auto store = (folder / "database/roads.gpkg").string();
+    EXPECT_THAT(digests([&] {
+                    fs::remove_all(folder / "database");
+                    fs::create_directory(folder / "database");
+                    output({"init", store, "--network", (folder / "road.geojson").string()});
+                    return output({"export", store, "--all", "--format", "geojson", "-o", "-"});
+                }),
+                SizeIs(1));
+}
+
 } // namespace
 } // namespace macadam::testing

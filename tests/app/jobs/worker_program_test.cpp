@@ -107,6 +107,49 @@ TEST(Workers, FetchLogsFromABucket) {
     expect_all_imported(world, 2);
 }
 
+TEST(Workers, CountNoAttemptWhileABucketCannotBeReached) {
+    WorkerWorld world;
+    world.make_trips(2);
+    world.objects = "s3://roads/logs";
+    {
+        const S3Service service{world.folder};
+        ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    }
+    ServerConnection server{world.address};
+    server.run("UPDATE macadam.job SET attempts = 4"); // another one would be the last
+    const auto expect_waiting = [&] {
+        EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job WHERE state = 'queued'"
+                                " AND attempts = 4"),
+                  2);
+    };
+    const auto away = run_macadam(world.worker_words()); // nobody listens
+    EXPECT_EQ(away.exit_status, 1);
+    EXPECT_THAT(away.err,
+                AllOf(HasSubstr("s3://roads/logs: cannot fetch an object: 127.0.0.1:"),
+                      HasSubstr("its logs wait until it can be reached")));
+    expect_waiting();
+    {
+        const S3Service refusing{world.folder, {"--failing", "1", "--status", "403"}};
+        EXPECT_THAT(run_macadam(world.worker_words()).err, HasSubstr("answers 403"));
+        expect_waiting();
+    }
+    const S3Service service{world.folder, {"--failing", "5"}};
+    auto words = world.worker_words();
+    std::erase(words, "--once");
+    PipedProgram worker{words};
+    const auto end = std::chrono::steady_clock::now() + 120s;
+    while (server.number("SELECT count(*) FROM macadam.job WHERE state = 'imported'") < 2 &&
+           std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(100ms);
+    }
+    worker.signal(SIGTERM);
+    const auto done = worker.wait();
+    EXPECT_EQ(done.exit_status, 0);
+    EXPECT_THAT(done.err, HasSubstr("answers 503"));
+    EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0); // fuses
+    expect_all_imported(world, 2);
+}
+
 TEST(Workers, TakeNoDamagedLog) {
     WorkerWorld world;
     world.make_trips(1);
@@ -124,6 +167,14 @@ TEST(Workers, TakeNoDamagedLog) {
     const auto status = nlohmann::json::parse(world.status());
     EXPECT_EQ(status.at("logs").at("parked"), 1);
     EXPECT_THAT(status.at("failed").at(0).at("reason").get<std::string>(), HasSubstr("is damaged"));
+    const auto again = run_macadam({"submit", world.address, "--again"});
+    EXPECT_EQ(again.exit_status, 0);
+    EXPECT_THAT(again.err, HasSubstr("1 parked log submitted again"));
+    EXPECT_EQ(nlohmann::json::parse(world.status()).at("logs").at("queued"), 1);
+    EXPECT_EQ(run_macadam({"submit", world.address}).exit_status, 2);
+    const auto both = run_macadam({"submit", world.address, world.trips.string(), "--again"});
+    EXPECT_EQ(both.exit_status, 2);
+    EXPECT_THAT(both.err, HasSubstr("expected no PATH"));
 }
 
 TEST(Workers, AreRefusedWithWords) {
@@ -136,6 +187,13 @@ TEST(Workers, AreRefusedWithWords) {
                 AllOf(HasSubstr("its workers compute results of version 0, this program those of "
                                 "version"),
                       HasSubstr("values of both must not mix")));
+    const auto road = (world.folder / "road.trip.csv").string();
+    for (const auto* const command : {"import", "reprocess"}) {
+        const auto beside = run_macadam({command, world.address, road, "--method", "kf"});
+        EXPECT_EQ(beside.exit_status, 1) << command;
+        EXPECT_THAT(beside.err, HasSubstr("its workers compute results of version 0")) << command;
+    }
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.trip"), 0);
     const auto of_file =
         run_macadam({"worker", (world.folder / "roads.gpkg").string(), "--once", "--objects", "x"});
     EXPECT_EQ(of_file.exit_status, 2);
@@ -185,6 +243,28 @@ TEST(Workers, GoOnWhereAllTheirConnectionsBroke) {
     worker.signal(SIGTERM);
     EXPECT_EQ(worker.wait().exit_status, 0);
     EXPECT_EQ(count("job WHERE attempts <> 1"), 0); // it was no fault of the logs
+    expect_all_imported(world, trips);
+}
+
+TEST(Workers, EndWithWordsOnceOthersTookOverMeanwhile) {
+    WorkerWorld world;
+    constexpr std::size_t trips = 30;
+    world.make_trips(trips);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    auto words = world.worker_words();
+    words.back() = "--json";
+    PipedProgram worker{words};
+    EXPECT_TRUE(worker.line(60s).has_value()); // it works
+    ServerConnection server{world.address};
+    server.run("UPDATE macadam.work_setting SET value = '99' WHERE key = 'results_version'");
+    const auto ended = worker.wait();
+    EXPECT_EQ(ended.exit_status, 1);
+    EXPECT_THAT(ended.err, HasSubstr("its workers compute results of version 99"));
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job WHERE state = 'queued'"
+                            " AND attempts > 0"),
+              0);
+    words.back() = "--take-over";
+    EXPECT_EQ(run_macadam(words).exit_status, 0);
     expect_all_imported(world, trips);
 }
 

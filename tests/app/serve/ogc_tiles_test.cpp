@@ -3,6 +3,7 @@
 #include "app/export/tile_export.hpp"
 #include "app/export/tile_square_painter.hpp"
 #include "app/serve/live/picture_tiles.hpp"
+#include "app/site/site_page.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/files/gzip.hpp"
 #include "storage/store/road_store.hpp"
@@ -152,6 +153,29 @@ TEST(OgcTiles, DrawsNoMorePicturesAtOnceThanItMay) {
     EXPECT_TRUE(pictures.tile("v", {16, 0, 0})); // none is refused for ever
 }
 
+TEST(OgcTiles, DrawEachDirectionOnTheSideOfTraffic) {
+    const auto file = test_folder() / "roads.gpkg";
+    auto store = new_store(file);
+    auto passes = passes_of(0);
+    for (auto& pass : passes) {
+        const int iri_um = pass.segment.forward ? 800 : 5000;
+        pass.iri_left_um = pass.iri_right_um = pass.iri_um = iri_um;
+    }
+    add_trip(store, trip_record(0), passes);
+    store.importer.refresh();
+    const auto box = store.map_box();
+    const auto middle = tile_position({.lat_deg = (box.south_deg + box.north_deg) / 2,
+                                       .lon_deg = (box.west_deg + box.east_deg) / 2},
+                                      14);
+    const TileId id{14, static_cast<std::uint32_t>(middle.x), static_cast<std::uint32_t>(middle.y)};
+    const Console quiet{Verbosity::quiet};
+    PictureTiles right{file, Audience::anyone, quiet};
+    PictureTiles left{file, Audience::anyone, quiet, true};
+    const auto on_right = right.tile("v", id), on_left = left.tile("v", id);
+    ASSERT_TRUE(on_right && *on_right && on_left && *on_left);
+    EXPECT_NE(**on_right, **on_left);
+}
+
 TEST(OgcTiles, SaysOnceWhyItCannotDraw) {
     const auto file = test_folder() / "none.gpkg";
     PictureTiles pictures{file, Audience::anyone, Console{Verbosity::quiet}};
@@ -221,6 +245,19 @@ TEST(OgcTiles, ShowsTheMapWhereTheProgramHasThePage) {
     const auto answer = served.ask("/", "Accept: text/html\r\n");
     EXPECT_EQ(answer.status, 200);
     EXPECT_EQ(answer.headers.at("content-type"), "text/html; charset=utf-8");
+}
+
+TEST(OgcTiles, ShowTheMapWithItsTitleAndSideOfTraffic) {
+    if (!refusal_of([] { static_cast<void>(site_page_folder()); }).empty()) {
+        return; // this build has no page
+    }
+    const ServedWorld served{{.port = 0}, {}, {}, {.title = "Our roads", .left_hand = true}};
+    while (served.ask("/site.json").status == 404) { // the test's time limit ends it
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
+    const auto site = served.page("/site.json");
+    EXPECT_EQ(site.at("title"), "Our roads");
+    EXPECT_EQ(site.at("left_hand"), true);
 }
 
 TEST(OgcTiles, AreTakenDownOnceOnlyPublicationsMayBeShown) {

@@ -3,6 +3,7 @@
 #include "app/cli/console.hpp"
 #include "app/http/listening_socket.hpp"
 #include "app/serve/api_server.hpp"
+#include "app/site/site_page.hpp"
 #include "storage/files/sha256.hpp"
 #include "support/files/files.hpp"
 #include "support/http/http_client.hpp"
@@ -108,6 +109,9 @@ TEST(StaffAccess, IsThatOfAnOperatorOnAUnixSocket) {
             EXPECT_EQ(status(target, "X_Forwarded_User: carla\r\n"), 401) << target;
             EXPECT_EQ(status(target, "X-Remote-User: carla\r\n"), 401) << target;
         }
+        EXPECT_EQ(status("/queue/status", ""), 401);
+        EXPECT_THAT(ask(HttpClient{socket}, "/queue/status", carla).body,
+                    HasSubstr("a database in a file has no queue"));
         const std::string log = "a log";
         const auto target = "/v1/trips/" + sha256_of(log);
         EXPECT_EQ(ask(HttpClient{socket}, target, "", "PUT", log).status, 401);
@@ -132,6 +136,18 @@ TEST(StaffAccess, IsNobodysOverTcp) {
         const auto answer = ask(HttpClient{world.port}, target, carla);
         EXPECT_TRUE(answer.status == 401 || answer.status == 404) << target << answer.status;
     }
+}
+
+TEST(OpenPages, LeadToTheRecorderBeforeTheFirstMap) {
+    const StaffWorld world{{.port = 0}, ""}; // without trips
+    EXPECT_EQ(ask(HttpClient{world.port}, "/driven", "").status, 401);
+    if (!refusal_of([] { static_cast<void>(site_page_folder()); }).empty()) {
+        return; // this build has no page
+    }
+    const auto moved = ask(HttpClient{world.port}, "/drive", "");
+    ASSERT_EQ(moved.status, 308);
+    EXPECT_EQ(moved.headers.at("location"), "drive/");
+    EXPECT_EQ(ask(HttpClient{world.port}, "/drive/", "").status, 200);
 }
 
 TEST(UnixSocket, TakesThePlaceOfOneThatNobodyListensOn) {

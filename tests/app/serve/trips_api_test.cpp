@@ -4,6 +4,7 @@
 #include "app/serve/api_server.hpp"
 #include "app/serve/trips/incoming_log.hpp"
 #include "app/serve/trips/trips_api.hpp"
+#include "app/serve/trips/upload_place.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
 #include "storage/uploads/access_token.hpp"
@@ -299,7 +300,7 @@ TEST(TripsApi, FollowsARevokedTokenAtOnce) {
     EXPECT_EQ(answer.headers.at("www-authenticate"), "Bearer realm=\"Macadam\"");
 }
 
-TEST(TripsApi, GivesATokenForAnInvitationOnce) {
+TEST(TripsApi, GivesATokenForAnInvitationAndAnotherInItsPlaceIfItGotLost) {
     TakingWorld world;
     const auto invitation = create_invitation(
         world.uploads,
@@ -309,7 +310,12 @@ TEST(TripsApi, GivesATokenForAnInvitationOnce) {
     ASSERT_EQ(given.status, 201) << given.body;
     const auto token = nlohmann::json::parse(given.body).at("token").get<std::string>();
     EXPECT_EQ(world.put("a log", token).status, 202);
-    EXPECT_EQ(world.ask("POST", "/v1/tokens", invitation).status, 401);
+    const auto again = world.ask("POST", "/v1/tokens", invitation);
+    ASSERT_EQ(again.status, 201) << again.body;
+    EXPECT_EQ(world.ask("GET", "/v1/trips", token).status, 401);
+    const auto trips = world.ask(
+        "GET", "/v1/trips", nlohmann::json::parse(again.body).at("token").get<std::string>());
+    EXPECT_EQ(nlohmann::json::parse(trips.body).at("trips").size(), 1U);
     EXPECT_EQ(world.ask("POST", "/v1/tokens", world.anna).status, 401); // a token is none
 }
 
@@ -438,7 +444,7 @@ TEST(TripsApi, LetsNoSharedCacheKeepWhatOnlyTokensShow) {
 
 TEST(TripsApi, TakesNoTripThatTheDiskCannotHold) {
     TakingWorld world;
-    TripsApi trips{world.file, {.min_free_bytes = 0}, [] {}};
+    TripsApi trips{uploads_beside(world.file), {.min_free_bytes = 0}, [] {}};
     trips.set_crowd(true);
     HttpRequest request;
     request.method = "PUT";
@@ -457,6 +463,22 @@ TEST(TripsApi, TakesNoTripThatTheDiskCannotHold) {
     upload.sha256 = std::string(64, 'a');
     IncomingLog log{spool_of(world.file), upload, more_than_any_disk};
     EXPECT_THROW(log.add(std::string(300'000, 'x')), InputError); // others filled it meanwhile
+}
+
+TEST(TripsApi, CountsTheRequestsOfAnOwnerNotOfHisTokens) {
+    TakingWorld world;
+    TripsApi trips{uploads_beside(world.file), {.burst = 2}, [] {}};
+    const auto is_refused = [&](const std::string& token) {
+        HttpRequest request;
+        request.method = "GET";
+        request.path = "/v1/trips";
+        request.headers = {{"authorization", "Bearer " + token}};
+        return trips.admit(request).refusal.has_value();
+    };
+    EXPECT_FALSE(is_refused(world.anna));
+    EXPECT_FALSE(is_refused(world.token("anna", TokenScope::upload)));
+    EXPECT_TRUE(is_refused(world.token("anna", TokenScope::upload)));
+    EXPECT_FALSE(is_refused(world.ben));
 }
 
 TEST(TripsApi, LetsNobodyGuessTokens) {

@@ -43,6 +43,42 @@ TEST_F(CopyProgram, CopiesThereAndBackAndSaysTheDigest) {
     EXPECT_EQ(run_macadam({"copy", file_, address_}).exit_status, 1); // one is there already
 }
 
+TEST_F(CopyProgram, CutsARegionOutIntoAFile) {
+    ASSERT_EQ(run_macadam({"copy", file_, address_}).exit_status, 0);
+    const auto all = run_macadam({"info", file_, "--digest"}).out;
+    const auto town = (folder_ / "town.gpkg").string();
+    const auto cut = run_macadam({"copy", address_, town, "--bbox", "4,45,5,46", "--json"});
+    EXPECT_EQ(cut.exit_status, 0) << cut.err;
+    EXPECT_THAT(cut.out, HasSubstr("\"trips\":3,\"passes\":60,\"digest\":\"" + all.substr(0, 64)));
+    EXPECT_THAT(run_macadam({"info", town, "--audit"}).out,
+                HasSubstr("cut: the box 4,45,5,46 of " + address_));
+    EXPECT_EQ(run_macadam({"query", town, "--worst", "3", "--json"}).out,
+              run_macadam({"query", file_, "--worst", "3", "--json"}).out);
+    write_file(folder_ / "town.geojson",
+               R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon",)"
+               R"("coordinates":[[[4,45],[5,45],[5,46],[4,45]]]}})");
+    const auto area = run_macadam({"copy",
+                                   address_,
+                                   (folder_ / "area.gpkg").string(),
+                                   "--area",
+                                   (folder_ / "town.geojson").string()});
+    EXPECT_EQ(area.exit_status, 0) << area.err;
+    EXPECT_THAT(area.out, HasSubstr("3 trips, 60 passes; digest on both sides: " + all));
+
+    const auto again = run_macadam({"copy", address_, town, "--bbox", "4,45,5,46"});
+    EXPECT_EQ(again.exit_status, 1);
+    EXPECT_THAT(again.err, HasSubstr("town.gpkg: already exists"));
+    const auto other = (folder_ / "other.gpkg").string();
+    EXPECT_THAT(run_macadam({"copy", address_, other, "--bbox", "10,50,11,51"}).err,
+                HasSubstr("no road lies in the box 10,50,11,51; its roads lie in the box 4.8"));
+    const auto empty = run_macadam({"copy", address_, other, "--bbox", "4,45,4,46"});
+    EXPECT_EQ(empty.exit_status, 2);
+    EXPECT_THAT(empty.err, HasSubstr("--bbox is 4,45,4,46, expected west,south,east,north"));
+    const auto of_file = run_macadam({"copy", file_, address_, "--bbox", "4,45,5,46"});
+    EXPECT_EQ(of_file.exit_status, 2);
+    EXPECT_THAT(of_file.err, HasSubstr("cut a region out of a database on a server"));
+}
+
 TEST_F(CopyProgram, LetsTheServersDatabaseBeReadLikeTheFile) {
     ASSERT_EQ(run_macadam({"copy", file_, address_}).exit_status, 0);
     for (const std::vector<std::string>& words :

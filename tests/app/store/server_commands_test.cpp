@@ -1,5 +1,6 @@
 // Commands that write to a database on a PostgreSQL server, as users run them.
 
+#include "storage/postgres/server_connection.hpp"
 #include "support/http/http_client.hpp"
 #include "support/program/piped_program.hpp"
 #include "support/program/places.hpp"
@@ -66,6 +67,32 @@ TEST_F(ServerCommands, WriteWhatTheyWriteToAFile) {
                 HasSubstr("0 trips imported, 1 already imported"));
 }
 
+TEST_F(ServerCommands, WarnASuperuserWhoImports) {
+    const auto boss = server_.address("roads");
+    const std::string words = "warning: connected as a superuser of the server: a role that was "
+                              "granted macadam_importer is enough";
+    ASSERT_EQ(run_on(address_, {"init", "--trace", trip_}).exit_status, 0);
+    EXPECT_THAT(run_on(boss, {"import", trip_, "--method", "kf"}).err, HasSubstr(words));
+    EXPECT_THAT(run_on(address_, {"import", trip_, "--method", "kf"}).err,
+                Not(HasSubstr("superuser")));
+
+    const auto folder = std::filesystem::path{file_}.parent_path();
+    const auto incoming = folder / "incoming";
+    std::filesystem::create_directories(incoming);
+    write_file(incoming / "a.trip.csv.gz", "no log");
+    std::filesystem::last_write_time(incoming / "a.trip.csv.gz",
+                                     std::filesystem::file_time_type::clock::now() -
+                                         std::chrono::hours{1});
+    PipedProgram watch{{"watch", boss, incoming.string(), "--json"}};
+    EXPECT_THAT(watch.line(std::chrono::seconds{60}).value_or(""), HasSubstr("\"rejected\""));
+    watch.signal(SIGTERM);
+    EXPECT_THAT(watch.wait().err, HasSubstr(words));
+
+    const auto objects = (folder / "objects").string();
+    ASSERT_EQ(run_on(address_, {"submit", trip_, "--objects", objects}).exit_status, 0);
+    EXPECT_THAT(run_on(boss, {"worker", "--once", "--method", "kf"}).err, HasSubstr(words));
+}
+
 TEST_F(ServerCommands, WriteToCellsOnAnotherServerWhatTheyWriteToAFile) {
     run_on_both({"init", "--trace", trip_});
     const auto list = run_on(address_, {"cells", "--json"});
@@ -82,6 +109,10 @@ TEST_F(ServerCommands, WriteToCellsOnAnotherServerWhatTheyWriteToAFile) {
     expect_one_digest("import");
     run_on_both({"reprocess", trip_, "--method", "kf", "--rate", "50"});
     expect_one_digest("reprocess");
+    ServerConnection server{address_}; // with what a killed importer left
+    server.run("INSERT INTO macadam.unfinished VALUES (1000, now() - interval '1 hour')");
+    EXPECT_EQ(run_on(address_, {"worker", "--once"}).exit_status, 0);
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.unfinished"), 0);
     run_on_both({"forget", "--trip", "gyor_q3_00.trip.csv"});
     expect_one_digest("forget");
 }
@@ -146,9 +177,9 @@ TEST_F(ServerCommands, ServeADatabaseWhileItGrows) {
     await("\"iri\":");
     serve.signal(SIGTERM);
     EXPECT_EQ(serve.wait().exit_status, 0);
-    const auto refused = run_on(address_, {"serve", "--only-with-token"});
+    const auto refused = run_on(address_, {"serve", "--workers", "2"});
     EXPECT_EQ(refused.exit_status, 2);
-    EXPECT_THAT(refused.err, HasSubstr("--only-with-token is for a .gpkg file"));
+    EXPECT_THAT(refused.err, HasSubstr("--workers is for a .gpkg file"));
 }
 
 TEST_F(ServerCommands, SayWhyTheyCannot) {

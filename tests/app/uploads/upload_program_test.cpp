@@ -219,6 +219,17 @@ TEST(Server, ShowsNoFolderThatItCannotClose) {
     EXPECT_THAT(run.err, HasSubstr("--only-with-token is for a database"));
 }
 
+TEST(Server, LeavesTheLookOfAFolderAsItWasExported) {
+    for (const std::vector<std::string>& look :
+         {std::vector<std::string>{"--title", "Our roads"}, {"--left-hand"}}) {
+        std::vector<std::string> words{"serve", fresh_folder().string(), "--listen", "127.0.0.1:0"};
+        words.insert(words.end(), look.begin(), look.end());
+        const auto run = run_macadam(words);
+        EXPECT_EQ(run.exit_status, 2);
+        EXPECT_THAT(run.err, HasSubstr(look.front() + " is for a database"));
+    }
+}
+
 TEST(Server, BelievesANameOfStaffOnAUnixSocketAlone) {
     const World world;
     const auto refusal = [&](const std::string& listen, const std::string& header) {

@@ -80,6 +80,16 @@ TEST(TripLimits, DoNotLimitSurveysOrWithoutANumber) {
     EXPECT_THAT(admitted({pass("a", 1, {}), pass("b", 1, {})}, 0), SizeIs(2));
 }
 
+TEST(TripLimits, DoNotLimitUnknownCars) {
+    constexpr std::int64_t unknown_car = 3;
+    TripLimit limit{1, unknown_car};
+    for (const auto* const trip : {"a", "b", "c"}) {
+        EXPECT_TRUE(limit.admits(pass(trip, unknown_car, new_year_2026_ms)));
+    }
+    EXPECT_TRUE(limit.admits(pass("d", 1, new_year_2026_ms)));
+    EXPECT_FALSE(limit.admits(pass("e", 1, new_year_2026_ms)));
+}
+
 TEST(TripLimits, StartAnewWithEachSegment) {
     TripLimit limit{1};
     EXPECT_TRUE(limit.admits(pass("b", 1, {})));

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <thread>
@@ -265,6 +266,14 @@ TEST_F(JobQueue, DoesNotCountAttemptsThatWereNotMade) {
     EXPECT_EQ(again[0].attempts, 1);
 }
 
+TEST_F(JobQueue, TakesJobsAfterAPauseThatWasAskedFor) {
+    submit_logs(queue(), logs(1));
+    put_back_jobs(queue(), anna, take_jobs(queue(), anna, 1, false), 60s);
+    EXPECT_THAT(take_jobs(queue(), anna, 1, false), IsEmpty());
+    let_pauses_pass();
+    EXPECT_EQ(take_jobs(queue(), anna, 1, false).at(0).attempts, 1);
+}
+
 TEST_F(JobQueue, TakesBackAllJobsOfAWorkerWhoseConnectionBroke) {
     submit_logs(queue(), logs(3));
     EXPECT_THAT(take_jobs(queue(), anna, 2, false), SizeIs(2));
@@ -324,6 +333,36 @@ TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
     EXPECT_THAT(jobs_to_erase(queue(), 10, ErasedLogs::imported), IsEmpty());
 }
 
+TEST_F(JobQueue, KeepsTheObjectOfALogThatIsSubmittedAgain) {
+    submit_logs(queue(), logs(1));
+    const auto refuse = [&] {
+        const auto taken = take_jobs(queue(), anna, 1, false);
+        ASSERT_THAT(taken, SizeIs(1));
+        finish_jobs(
+            queue(), anna, std::vector{JobEnd{.job = taken[0], .state = UploadState::refused}});
+    };
+    const auto to_erase = [&] { return jobs_to_erase(queue(), 10, ErasedLogs::worked_out); };
+    refuse();
+    EXPECT_THAT(to_erase(), SizeIs(1));
+    keep_objects_of(queue(), logs(1)); // the submitter stores it now
+    EXPECT_THAT(to_erase(), IsEmpty());
+    EXPECT_THAT(submit_logs(queue(), logs(1)), ElementsAre(Submission::requeued));
+    refuse();
+    EXPECT_THAT(to_erase(), SizeIs(1));
+
+    ServerConnection worker{address_};
+    queue().run("SET lock_timeout = '100 ms'");
+    {
+        ServerTransaction erasing{worker};
+        note_erased(worker, jobs_to_erase(worker, 10, ErasedLogs::worked_out));
+        EXPECT_THAT(refusal_of([&] { keep_objects_of(queue(), logs(1)); }),
+                    HasSubstr("lock timeout"));
+        erasing.commit();
+    }
+    keep_objects_of(queue(), logs(1)); // it is stored after it was erased, not before
+    EXPECT_THAT(to_erase(), IsEmpty());
+}
+
 TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
     submit_logs(queue(), logs(4));
     const auto taken = take_jobs(queue(), anna, 3, false);
@@ -359,6 +398,106 @@ TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
     EXPECT_THAT(refusal_of([&] { put_objects_location(queue(), "/srv/a"); }),
                 HasSubstr("a log waits in /srv/b"));
     EXPECT_EQ(objects_location(queue()), "/srv/b");
+}
+
+TEST_F(JobQueue, TakesLogsOfOneOfTwoStoresThatAreSubmittedToAtOnce) {
+    constexpr int rounds = 20;
+    for (int round = 0; round < rounds; ++round) {
+        queue().run("DELETE FROM macadam.job; DELETE FROM macadam.work_setting");
+        std::vector<int> is_submitted(2);
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t i = 0; i < is_submitted.size(); ++i) {
+                threads.emplace_back([&, i] {
+                    ServerConnection own{address_};
+                    const auto store = fmt::format("/srv/{}", i);
+                    const auto both = logs(2);
+                    try {
+                        put_objects_location(own, store);
+                        submit_logs(own, std::span{both}.subspan(i, 1), store);
+                        is_submitted[i] = 1;
+                    } catch (const InputError& error) {
+                        EXPECT_THAT(error.what(), HasSubstr("where workers look for all logs"));
+                    }
+                });
+            }
+        }
+        EXPECT_EQ(is_submitted[0] + is_submitted[1], 1) << round;
+        EXPECT_EQ(objects_location(queue()), is_submitted[0] == 1 ? "/srv/0" : "/srv/1") << round;
+        EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 1) << round;
+    }
+}
+
+TEST_F(JobQueue, TakesLogsOfAStoreThatWasReplacedMeanwhileOnlyThere) {
+    put_objects_location(queue(), "/srv/a");
+    put_objects_location(queue(), "/srv/b"); // by another program
+    EXPECT_THAT(refusal_of([&] { submit_logs(queue(), logs(1), "/srv/a"); }),
+                AllOf(HasSubstr("just submitted to /srv/b"), HasSubstr("expected /srv/a")));
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 0);
+    EXPECT_THAT(submit_logs(queue(), logs(1), "/srv/b"), ElementsAre(Submission::added));
+}
+
+TEST_F(JobQueue, QueuesParkedLogsAgainByTheDatabaseAlone) {
+    submit_logs(queue(), logs(2));
+    queue().run("UPDATE macadam.job SET attempts = 4");
+    for (int i = 0; i < 2; ++i) {
+        const auto taken = take_jobs(queue(), anna, 1, true);
+        ASSERT_THAT(taken, SizeIs(1));
+        if (i == 0) {
+            fail_job(queue(), anna, taken[0], "the object is missing");
+        } else {
+            finish_jobs(
+                queue(), anna, std::vector{JobEnd{.job = taken[0], .state = UploadState::refused}});
+        }
+    }
+    EXPECT_EQ(submit_parked_logs(queue()), 1U);
+    EXPECT_EQ(submit_parked_logs(queue()), 0U);
+    const auto taken = take_jobs(queue(), anna, 10, false);
+    ASSERT_THAT(taken, SizeIs(1));
+    EXPECT_EQ(taken[0].attempts, 1);
+    EXPECT_EQ(reason_of(taken[0]), "");
+    EXPECT_EQ(work_status(queue(), 1).logs.at("refused"), 1);
+}
+
+TEST_F(JobQueue, CountsLogsByStateHoweverTheyCameToIt) {
+    const auto expect_counts = [&](const std::string& when) {
+        std::map<std::string, std::int64_t> expected;
+        for (const auto state : all_upload_states) {
+            expected[std::string{name_of(state)}] = queue().number(
+                fmt::format("SELECT count(*) FROM macadam.job WHERE state = '{}'", name_of(state)));
+        }
+        EXPECT_EQ(work_status(queue(), 1).logs, expected) << when;
+    };
+    submit_logs(queue(), logs(12));
+    expect_counts("submitted");
+    const auto taken = take_jobs(queue(), anna, 10, false);
+    ASSERT_THAT(taken, SizeIs(10));
+    std::vector<JobEnd> ends;
+    for (std::size_t i = 0; i < 9; ++i) {
+        using enum UploadState;
+        constexpr std::array states{imported, known, outside, refused};
+        ends.push_back({.job = taken[i], .state = states.at(i % states.size())});
+    }
+    finish_jobs(queue(), anna, ends);
+    expect_counts("finished");
+    submit_logs(queue(), logs(12)); // those outside and refused come again
+    expect_counts("submitted again");
+    queue().run("UPDATE macadam.job SET has_object = false,"
+                " finished_at = finished_at - interval '401 days'");
+    remove_old_jobs(queue(), 3);
+    expect_counts("old ones removed");
+    queue().run("DELETE FROM macadam.migration WHERE number > 9");
+    upgrade_server_schema(queue());
+    expect_counts("upgraded");
+
+    const auto rows = [&] { return queue().number("SELECT count(*) FROM macadam.job_count"); };
+    sum_job_counts(queue());
+    const auto few = rows();
+    queue().run("INSERT INTO macadam.job_count SELECT 'known', 0 FROM generate_series(1, 200)");
+    EXPECT_EQ(rows(), few + 200);
+    sum_job_counts(queue());
+    EXPECT_LE(rows(), 3);
+    expect_counts("summed");
 }
 
 TEST_F(JobQueue, RefusesWorkersOfOtherResults) {
@@ -397,7 +536,7 @@ TEST_F(JobQueue, IsForImportersAndOperatorsAlone) {
 }
 
 TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
-    queue().run("DROP TABLE macadam.job_trip, macadam.job, macadam.worker,"
+    queue().run("DROP TABLE macadam.job_trip, macadam.job, macadam.job_count, macadam.worker,"
                 " macadam.work_setting, macadam.chunk_change, macadam.published_state,"
                 " macadam.published_until, macadam.published_pending, macadam.published_figure,"
                 " macadam.published_event, macadam.publication;"
@@ -410,7 +549,8 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
                 " INSERT INTO macadam.chunk_dirty (chunk, since_ms) VALUES (7, 0);"
                 " DELETE FROM macadam.migration WHERE number > 1");
     EXPECT_THAT(refusal_of([&] { expect_server_schema(queue()); }),
-                AllOf(HasSubstr("its schema is of version 1, expected 9"),
+                AllOf(HasSubstr(fmt::format("its schema is of version 1, expected {}",
+                                            server_schema_version)),
                       HasSubstr("macadam upgrade postgresql://")));
     EXPECT_EQ(upgrade_server_schema(queue()), 1);
     EXPECT_EQ(upgrade_server_schema(queue()), server_schema_version);
@@ -426,27 +566,40 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
 
 TEST_F(JobQueue, IsSearchedByItsIndexes) {
     submit_logs(queue(), logs(2000));
-    queue().run("UPDATE macadam.job SET state = 'imported', finished_at = now() - interval '1 day'"
-                " WHERE number > 20; ANALYZE macadam.job");
-    for (const auto& [begun, index] :
-         std::map<std::string, std::string>{{"= 0", "job_new"}, {"> 0", "job_begun"}}) {
+    queue().run("UPDATE macadam.job SET state = 'imported', finished_at = now() - interval '1 day',"
+                " submitted_at = now() - interval '1 day' WHERE number > 20;"
+                " UPDATE macadam.job SET state = 'refused' WHERE number > 1990;"
+                " ANALYZE macadam.job");
+    const auto expect_plan = [&](const std::string& index, const std::string& query) {
         std::string plan;
-        for (const auto& row : queue().rows(fmt::format(
-                 "EXPLAIN SELECT sha256 FROM macadam.job WHERE state IN ('queued', 'working')"
-                 " AND attempts {} ORDER BY number LIMIT 20 FOR UPDATE SKIP LOCKED",
-                 begun))) {
+        for (const auto& row : queue().rows("EXPLAIN " + query)) {
             plan += row[0].value_or("") + "\n";
         }
-        EXPECT_THAT(plan, HasSubstr(index)) << plan;
+        EXPECT_THAT(plan, AllOf(HasSubstr(index), Not(HasSubstr("Seq Scan")))) << plan;
+    };
+    for (const auto& [begun, index] :
+         std::map<std::string, std::string>{{"= 0", "job_new"}, {"> 0", "job_begun"}}) {
+        expect_plan(index,
+                    fmt::format("SELECT sha256 FROM macadam.job WHERE state IN ('queued',"
+                                " 'working') AND attempts {} ORDER BY number LIMIT 20"
+                                " FOR UPDATE SKIP LOCKED",
+                                begun));
     }
-    std::string plan;
-    for (const auto& row : queue().rows("EXPLAIN SELECT sha256 FROM macadam.job WHERE finished_at <"
-                                        " now() - interval '400 days' AND NOT has_object AND state"
-                                        " IN ('imported', 'known', 'outside', 'refused')"
-                                        " ORDER BY finished_at LIMIT 20 FOR UPDATE SKIP LOCKED")) {
-        plan += row[0].value_or("") + "\n";
-    }
-    EXPECT_THAT(plan, HasSubstr("job_finished")) << plan; // as remove_old_jobs() asks
+    // As remove_old_jobs() asks.
+    expect_plan("job_finished",
+                "SELECT sha256 FROM macadam.job WHERE finished_at < now() - interval '400 days'"
+                " AND NOT has_object AND state IN ('imported', 'known', 'outside', 'refused')"
+                " ORDER BY finished_at LIMIT 20 FOR UPDATE SKIP LOCKED");
+    // As work_status() asks.
+    expect_plan("job_open",
+                "SELECT state, count(*), extract(epoch FROM now() - min(submitted_at))"
+                " FROM macadam.job WHERE state IN ('queued', 'working', 'parked', 'refused')"
+                " GROUP BY state");
+    expect_plan("job_open",
+                "SELECT sha256, state, reason, attempts FROM macadam.job"
+                " WHERE state IN ('parked', 'refused') ORDER BY state, number DESC LIMIT 20");
+    expect_plan("job_submitted",
+                "SELECT count(*) FROM macadam.job WHERE submitted_at > now() - interval '1 hour'");
 }
 
 } // namespace

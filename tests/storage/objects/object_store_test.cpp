@@ -194,6 +194,46 @@ TEST(S3Objects, TellWhatAServiceSays) {
     EXPECT_THAT(put("s3://elsewhere"), HasSubstr("The specified bucket does not exist"));
 }
 
+/// Tests whether an object is the cause of an error, not the store.
+bool is_unusable(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const UnusableObject&) {
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+    ADD_FAILURE() << "no error";
+    return false;
+}
+
+TEST(FolderObjects, TellAMissingObjectFromAMissingStore) {
+    const auto folder = fresh_folder();
+    const auto store = open_object_store((folder / "logs").string());
+    const auto fetch = [&] { store->fetch(object_of("a trip"), folder / "out"); };
+    EXPECT_TRUE(is_unusable(fetch));
+    fs::remove_all(folder / "logs");
+    EXPECT_FALSE(is_unusable(fetch));
+}
+
+TEST(S3Objects, TellAMissingObjectFromAServiceThatDoesNotServe) {
+    const auto folder = fresh_folder();
+    const auto fetch = [&](const std::string& location) {
+        return [=] { open_object_store(location)->fetch(object_of("a trip"), folder / "out"); };
+    };
+    for (const auto* const status : {"401", "403", "400", "500"}) {
+        const S3Service service{folder, {"--failing", "5", "--status", status}};
+        EXPECT_FALSE(is_unusable(fetch("s3://roads"))) << status;
+    }
+    {
+        const S3Service service{folder};
+        EXPECT_TRUE(is_unusable(fetch("s3://roads")));
+        EXPECT_FALSE(is_unusable(fetch("s3://elsewhere"))); // no such bucket
+    }
+    EXPECT_FALSE(is_unusable(fetch("s3://roads"))); // nobody listens any more
+    EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST(S3Objects, AreCheckedByTheirHash) {
     const auto folder = fresh_folder();
     const S3Service service{folder};

@@ -98,23 +98,62 @@ TEST(AccessToken, IsReadFromBearerAndFromBasic) {
     }
 }
 
-TEST(Invitation, GivesOneTokenOnce) {
+constexpr std::int64_t again = 600'000; // ms in which an invitation can be taken again
+constexpr std::int64_t far = 10 * again;
+
+std::string invitation_of_ben(Database& uploads, std::int64_t expires_ms = now + far) {
+    return create_invitation(
+        uploads, {.owner = "ben", .expires_ms = expires_ms, .token_expires_ms = now + 2 * far});
+}
+
+TEST(Invitation, GivesATokenUntilItExpires) {
     auto uploads = new_uploads();
-    const auto invitation = create_invitation(
-        uploads, {.owner = "ben", .expires_ms = now + 10, .token_expires_ms = now + 1000});
+    const auto invitation = invitation_of_ben(uploads, now + 10);
     EXPECT_FALSE(find_token(uploads, invitation, now)); // it is no token itself
     EXPECT_FALSE(take_invitation(uploads, invitation, now + 10));
     const auto token = take_invitation(uploads, invitation, now + 9);
     ASSERT_TRUE(token);
-    EXPECT_EQ(find_token(uploads, *token, now + 999)->owner, "ben");
-    EXPECT_FALSE(find_token(uploads, *token, now + 1000));
-    EXPECT_FALSE(take_invitation(uploads, invitation, now + 9));
+    EXPECT_EQ(find_token(uploads, *token, now + 2 * far - 1)->owner, "ben");
+    EXPECT_FALSE(find_token(uploads, *token, now + 2 * far));
+    EXPECT_FALSE(take_invitation(uploads, invitation, now + 10)); // it lives no longer for that
+}
+
+TEST(Invitation, TakenAgainWithinMinutesReplacesATokenThatMayBeLost) {
+    auto uploads = new_uploads();
+    const auto invitation = invitation_of_ben(uploads);
+    const auto lost = take_invitation(uploads, invitation, now);
+    const auto token = take_invitation(uploads, invitation, now + again - 1);
+    ASSERT_TRUE(lost && token);
+    EXPECT_FALSE(find_token(uploads, *lost, now));
+    EXPECT_TRUE(find_token(uploads, *token, now));
+    EXPECT_EQ(all_tokens(uploads).size(), 1U);
+    EXPECT_FALSE(take_invitation(uploads, invitation, now + again)); // minutes of the first time
+    EXPECT_TRUE(find_token(uploads, *token, now));
+}
+
+TEST(Invitation, TakenLeavesOtherTokensOfItsName) {
+    auto uploads = new_uploads();
+    const auto other = create_token(uploads, of("ben"));
+    const auto first = take_invitation(uploads, invitation_of_ben(uploads), now);
+    const auto second = take_invitation(uploads, invitation_of_ben(uploads), now);
+    ASSERT_TRUE(first && second);
+    for (const auto& token : {other, *first, *second}) {
+        EXPECT_TRUE(find_token(uploads, token, now));
+    }
+}
+
+TEST(Invitation, IsRevokedWithTheTokenItGave) {
+    auto uploads = new_uploads();
+    const auto invitation = invitation_of_ben(uploads);
+    const auto token = take_invitation(uploads, invitation, now);
+    ASSERT_TRUE(token);
+    EXPECT_EQ(revoke_tokens(uploads, find_token(uploads, *token, now)->id), 1U);
+    EXPECT_FALSE(take_invitation(uploads, invitation, now));
 }
 
 TEST(Invitation, IsRevokedWithTheTokensOfItsName) {
     auto uploads = new_uploads();
-    const auto invitation = create_invitation(
-        uploads, {.owner = "ben", .expires_ms = now + 10, .token_expires_ms = now + 1000});
+    const auto invitation = invitation_of_ben(uploads);
     EXPECT_EQ(revoke_tokens(uploads, "ben"), 1U);
     EXPECT_FALSE(take_invitation(uploads, invitation, now));
 }

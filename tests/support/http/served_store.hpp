@@ -25,8 +25,9 @@ namespace macadam::testing {
 struct ServedWorld {
     explicit ServedWorld(const HttpServerConfig& config = {.port = 0},
                          const ServedAddress& address = {},
-                         const std::optional<SectionOptions>& sections = {})
-        : server{[this, config, address, sections] {
+                         const std::optional<SectionOptions>& sections = {},
+                         const SiteLook& look = {})
+        : server{[this, config, address, sections, look] {
               serve_database(
                   file,
                   Audience::anyone,
@@ -35,7 +36,8 @@ struct ServedWorld {
                   Console{Verbosity::quiet, stop.get_token()},
                   [this](std::uint16_t its_port) { started.set_value(its_port); },
                   {},
-                  sections);
+                  sections,
+                  look);
           }} {}
     ~ServedWorld() { stop.request_stop(); }
     ServedWorld(const ServedWorld&) = delete;

@@ -14,6 +14,10 @@
 
 namespace macadam::testing {
 
+std::string name_of(Engine engine) {
+    return engine == Engine::geopackage ? "GeoPackage" : "PostgreSQL";
+}
+
 EngineDatabase::EngineDatabase(Engine engine, const std::filesystem::path& folder)
     : EngineDatabase{engine, folder, small_country(), settings()} {}
 

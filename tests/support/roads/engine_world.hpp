@@ -15,6 +15,9 @@ namespace macadam::testing {
 
 enum class Engine { geopackage, postgresql };
 
+/// Name of an engine, for names of tests.
+std::string name_of(Engine engine);
+
 /// Database on one of the engines, empty at first. Beside the one on a server, an empty file of the
 /// same key stays in the folder: roads.gpkg.
 class EngineDatabase {

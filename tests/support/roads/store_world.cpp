@@ -106,4 +106,22 @@ void import_trips(RoadStore& store, int count) {
     store.importer.refresh();
 }
 
+void import_trimmed_trips(RoadStore& store) {
+    const std::vector<PassEvent> events{{.segment = {1, true, 2},
+                                         .occurrence = 0,
+                                         .kind = EventKind::pothole,
+                                         .track = WheelTrack::unknown,
+                                         .at_mm = 45'000,
+                                         .place_sd_mm = 1000,
+                                         .size_um = 30'000,
+                                         .sd_um = 9'500,
+                                         .length_mm = 750}};
+    for (const int number : {4, 5, 6}) {
+        auto trip = trip_record(number);
+        trip.trimmed_mm = 1'000'000;
+        add_trip(store, trip, passes_of(number), {}, events);
+    }
+    store.importer.refresh();
+}
+
 } // namespace macadam::testing

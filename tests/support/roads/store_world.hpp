@@ -47,4 +47,8 @@ bool stage_trip(RoadStore& store,
 /// Imports trips 0 to `count` - 1 and fuses them.
 void import_trips(RoadStore& store, int count);
 
+/// Imports and fuses trips 4 to 6, which a crowd database keeps whole: their recorder left out
+/// enough at their ends. Each reports one pothole.
+void import_trimmed_trips(RoadStore& store);
+
 } // namespace macadam::testing

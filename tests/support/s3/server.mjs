@@ -1,6 +1,6 @@
-// S3-compatible service for tests: node server.mjs FOLDER [--failing N] [--tls]
+// S3-compatible service for tests: node server.mjs FOLDER [--failing N [--status N]] [--tls]
 // Prints its port, and serves bucket "roads" until its standard input ends. --failing: the first N
-// requests are answered by 503; --tls: with FOLDER/key.pem and FOLDER/cert.pem.
+// requests are answered by 503, or another --status; --tls: with FOLDER/key.pem and FOLDER/cert.pem.
 import {createHash, randomUUID} from "node:crypto";
 import {readFileSync} from "node:fs";
 import {mkdir, rename, writeFile} from "node:fs/promises";
@@ -12,7 +12,7 @@ import {parseArgs} from "node:util";
 import S3rver from "s3rver";
 
 const {values, positionals: [folder]} = parseArgs({
-    options: {failing: {type: "string", default: "0"}, tls: {type: "boolean", default: false}},
+    options: {failing: {type: "string", default: "0"}, status: {type: "string", default: "503"}, tls: {type: "boolean", default: false}},
     allowPositionals: true,
 });
 const service = new S3rver({directory: join(folder, "buckets"), silent: true, configureBuckets: [{name: "roads"}]});
@@ -24,7 +24,7 @@ const listener = (request, response) => {
     if (failing > 0) {
         --failing;
         request.resume();
-        response.writeHead(503, {"Content-Type": "application/xml"});
+        response.writeHead(Number(values.status), {"Content-Type": "application/xml"});
         response.end("<Error><Code>SlowDown</Code><Message>Please reduce your request rate.</Message></Error>");
     } else {
         answer(request, response);

@@ -3,16 +3,22 @@ import { takeInvitation } from './invitation.js';
 import { show, speak } from './page.js';
 import { holdRecording } from './recording_lock.js';
 import { Sender } from './sender.js';
+import { ServerTrips } from './server_trips.js';
 import { TripStore } from './trip_store.js';
 import { carView } from './views/car.js';
 import { foundView } from './views/found.js';
 import { homeView } from './views/home.js';
 import { privacyView } from './views/privacy.js';
+import { redrawTrips } from './views/trip_list.js';
 
 const base = new URL('../', location.href); // of the server
 const store = await TripStore.open();
-const sender = new Sender(store, base);
-const recorder = { store, sender, base, begin, home: () => show(homeView, recorder) };
+const atServer = new ServerTrips(store, base, () => redrawTrips(recorder));
+const sender = new Sender(store, base, async () => {
+  await redrawTrips(recorder);
+  await atServer.refresh();
+});
+const recorder = { store, sender, atServer, begin, home: () => show(homeView, recorder) };
 
 // Shows what comes next: the privacy page, the car, an interrupted trip, or home.
 async function begin() {
@@ -32,8 +38,14 @@ async function begin() {
 }
 
 speak(await store.setting('language'), (language) => store.setSetting('language', language));
-await takeInvitation(store, base);
 await begin();
+await takeInvitation(store, base);
+addEventListener('hashchange', async () => { // the link was opened in this page
+  await takeInvitation(store, base);
+  await sender.send();
+});
 addEventListener('online', () => sender.send());
+addEventListener('offline', () => redrawTrips(recorder));
+document.addEventListener('visibilitychange', () => document.hidden || atServer.refresh());
 sender.send();
 navigator.serviceWorker?.register('service_worker.js');

@@ -43,16 +43,12 @@ export async function show(next, ...values) {
   content.querySelector('h2')?.focus();
 }
 
-export const showAgain = () => view();
-
-export const shows = (selector) => content.querySelector(selector) !== null;
-
 // Takes the language that was chosen before, or the browser's, and lets the driver change it. kept: remembers a choice.
 export function speak(chosen, kept) {
   language = chosen ?? (navigator.language.startsWith('de') ? 'de' : 'en');
   languageButton.onclick = async () => {
     language = language === 'de' ? 'en' : 'de';
     await kept(language);
-    await showAgain();
+    await view();
   };
 }

@@ -50,7 +50,11 @@ export class TripStore {
   }
 
   setSetting(name, value) {
-    return this.#write('settings', (store) => store('settings').put(value, name));
+    return this.setSettings({ [name]: value });
+  }
+
+  setSettings(values) {
+    return this.#write('settings', (store) => Object.entries(values).forEach(([name, value]) => store('settings').put(value, name)));
   }
 
   trips() {
@@ -59,6 +63,25 @@ export class TripStore {
 
   putTrip(trip) {
     return this.#write('trips', (store) => store('trips').put(trip));
+  }
+
+  // Replaces the entry of a trip by change(entry), unless the trip was deleted meanwhile or change returns nothing.
+  // Returns the new entry; undefined: it was left as it is. dropsLog: deletes the log with the change.
+  async changeTrip(id, change, { dropsLog = false } = {}) {
+    let changed;
+    await this.#write(['trips', 'logs'], (store) => {
+      const read = store('trips').get(id);
+      read.onsuccess = () => {
+        changed = read.result && change(read.result);
+        if (changed) {
+          store('trips').put(changed);
+          if (dropsLog) {
+            store('logs').delete(id);
+          }
+        }
+      };
+    });
+    return changed;
   }
 
   addChunk(trip, seq, chunk) {
@@ -82,14 +105,6 @@ export class TripStore {
 
   async log(trip) {
     return (await this.#read('logs', (store) => store.get(trip)))?.blob;
-  }
-
-  // Deletes the log and keeps the entry.
-  received(trip) {
-    return this.#write(['trips', 'logs'], (store) => {
-      store('trips').put(trip);
-      store('logs').delete(trip.id);
-    });
   }
 
   deleteTrip(id) {

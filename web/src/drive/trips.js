@@ -1,11 +1,12 @@
+import { compressed } from './log_file.js';
 import { joined } from './recording.js';
 import { fixColumn, fixWidth, motionWidth } from './samples.js';
 import { drawCount } from './trimming.js';
 import { tripLog } from './trip_log.js';
-import { sendTrip, sha256Hex } from './upload.js';
+import { deleteAtServer, maxUpload_bytes, sendTrip, sha256Hex } from './upload.js';
 
-// States of a trip: recording, ended (the log is on the phone), too_short, queued (to be sent), received, gone (deleted
-// at the server after it was received).
+// States of a trip: recording, ended (the log is on the phone), too_short, queued (to be sent), withdrawn (deleted here
+// after a try to send it, not yet at the server), received, deleting (at the server), gone (deleted there).
 
 export const randomName = (prefix, bytes) =>
   prefix + [...crypto.getRandomValues(new Uint8Array(bytes))].map((byte) => byte.toString(16).padStart(2, '0')).join('');
@@ -35,13 +36,14 @@ export async function endTrip(store, trip, device) {
     await store.finish(ended, null);
     return ended;
   }
-  const blob = new Blob(log.parts, { type: 'text/csv' });
+  const blob = await compressed(new Blob(log.parts, { type: 'text/csv' }));
   const ended = {
     ...entry,
     state: 'ended',
     begun_ms: log.begin_ms,
     end_ms: log.end_ms,
     length_m: log.length_m,
+    bytes: blob.size,
     sha256: await sha256Hex(await blob.arrayBuffer()),
   };
   await store.finish(ended, blob);
@@ -51,27 +53,61 @@ export async function endTrip(store, trip, device) {
 export const fileName = (trip) =>
   `${new Date(trip.begun_ms).toISOString().slice(0, 16).replace(/[-:]/g, '')}-${trip.id}.trip.csv`;
 
-// Sends all queued trips, one after the other. Returns when to try again (s); null: nothing waits.
-export async function sendQueued(store, { token, base, onChange }) {
+export const isTooLarge = (trip) => trip.bytes > maxUpload_bytes;
+
+const pauseToDelete_s = 60;
+
+// Sends a trip, unless it was deleted meanwhile. Returns { outcome, after_s } (upload.js); {}: it was deleted.
+async function sendQueuedTrip(store, id, { token, base, signal }) {
+  const ifQueued = (change, options) => store.changeTrip(id, (entry) => entry.state === 'queued' && change(entry), options);
+  // Counted ahead, so that a crash from here on asks the server first.
+  const trip = await ifQueued((entry) => ({ ...entry, attempt: (entry.attempt ?? 0) + 1 }));
+  const body = trip && (await store.log(id));
+  if (!body) {
+    return {};
+  }
+  const attempt = trip.attempt - 1;
+  const answer = body.size > maxUpload_bytes
+    ? { outcome: 'too_large' }
+    : await sendTrip({ sha256: trip.sha256, body, attempt }, { token, base, signal });
+  if (answer.outcome === 'received') {
+    await ifQueued(({ problem, reason, ...entry }) => ({ ...entry, state: 'received', told_ms: Date.now() }), { dropsLog: true });
+  } else if (answer.outcome !== 'later') { // a first try that is refused has left nothing at the server
+    const { outcome: problem, reason } = answer;
+    await ifQueued((entry) => ({ ...entry, state: 'ended', problem, reason, attempt: attempt === 0 ? 0 : trip.attempt, bytes: body.size }));
+  }
+  return answer;
+}
+
+// Sends all queued trips, one after the other, and deletes withdrawn ones at the server. The driver may delete any
+// meanwhile. signalOf(id): aborts the sending of a trip. Returns when to try again (s); null: nothing waits.
+export async function sendQueued(store, { token, base, signalOf, onChange }) {
   let again_s = null;
-  for (const trip of await store.trips()) {
-    if (trip.state !== 'queued') {
-      continue;
+  const waitFor = (after_s) => {
+    again_s = Math.min(again_s ?? Infinity, after_s);
+  };
+  for (const { id } of (await store.trips()).filter((trip) => trip.state === 'queued')) {
+    onChange('sending');
+    const { outcome, after_s } = await sendQueuedTrip(store, id, { token, base, signal: signalOf(id) });
+    if (outcome === 'later') {
+      waitFor(after_s);
     }
-    onChange(trip, 'sending');
-    const body = await store.log(trip.id);
-    const attempt = trip.attempt ?? 0;
-    await store.putTrip({ ...trip, attempt: attempt + 1 }); // so that a crash from here on asks the server first
-    const answer = await sendTrip({ sha256: trip.sha256, body, attempt }, { token, base });
-    const { problem, reason, ...entry } = trip;
-    if (answer.outcome === 'received') {
-      await store.received({ ...entry, state: 'received', attempt: attempt + 1 });
-    } else if (answer.outcome === 'later') {
-      again_s = Math.min(again_s ?? Infinity, answer.after_s);
+    onChange(outcome);
+  }
+  for (const { id, sha256 } of (await store.trips()).filter((trip) => trip.state === 'withdrawn')) {
+    if (await deleteAtServer(sha256, { token, base })) {
+      await store.deleteTrip(id);
     } else {
-      await store.putTrip({ ...entry, state: 'ended', problem: answer.outcome, reason: answer.reason, attempt: attempt + 1 });
+      waitFor(pauseToDelete_s);
     }
-    onChange(trip, answer.outcome);
   }
   return again_s;
+}
+
+// Deletes a trip on this phone; one that the server may have is withdrawn: the next sending deletes it there.
+export async function deleteHere(store, id) {
+  const entry = await store.changeTrip(id, (trip) => ({ ...trip, state: 'withdrawn' }), { dropsLog: true });
+  if (!(entry?.attempt > 0)) {
+    await store.deleteTrip(id);
+  }
 }

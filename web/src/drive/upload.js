@@ -1,4 +1,6 @@
-// Client of `PUT /v1/trips/{sha256}` (docs/reference/recorder.md).
+// Client of a server's trips and tokens (docs/reference/recorder.md).
+
+export const maxUpload_bytes = 64 * 2 ** 20; // of a log as it is sent
 
 export async function sha256Hex(bytes) {
   const digest = await crypto.subtle.digest('SHA-256', bytes);
@@ -21,6 +23,8 @@ async function reasonOf(response) {
   }
 }
 
+const patience_ms = 30_000; // of requests without a log
+
 const authorisation = (token) => (token ? { Authorization: `Bearer ${token}` } : {});
 
 async function outcomeOf(response, attempt) {
@@ -33,6 +37,9 @@ async function outcomeOf(response, attempt) {
   if ([404, 405, 501].includes(response.status)) {
     return { outcome: 'no_server' };
   }
+  if (response.status === 413) {
+    return { outcome: 'too_large' };
+  }
   if (response.status === 408 || response.status === 429 || response.status >= 500) {
     return { outcome: 'later', after_s: retryAfter_s(response, attempt) };
   }
@@ -42,21 +49,23 @@ async function outcomeOf(response, attempt) {
 // Sends a log once. A trip that was tried before is asked for first: the server may have it, although its answer was
 // lost on the way.
 //
-// trip: { sha256, body, attempt }. Returns { outcome: received | later (after_s) | no_leave | no_server | refused (reason) }.
-export async function sendTrip(trip, { token, base, fetch = globalThis.fetch }) {
+// trip: { sha256, body (a Blob, whose type is sent), attempt }. Returns { outcome: received | later (after_s) | no_leave |
+// no_server | too_large | refused (reason) }.
+export async function sendTrip(trip, { token, base, signal, fetch = globalThis.fetch }) {
   const url = new URL(`v1/trips/${trip.sha256}`, base);
   const headers = authorisation(token);
   try {
     if (trip.attempt > 0) {
-      const known = await fetch(url, { headers });
+      const known = await fetch(url, { headers, signal });
       if (known.ok) {
         return { outcome: 'received' };
       }
     }
     const response = await fetch(url, {
       method: 'PUT',
-      headers: { ...headers, 'Content-Type': 'text/csv; charset=utf-8' },
+      headers: { ...headers, 'Content-Type': trip.body.type },
       body: trip.body,
+      signal,
     });
     return await outcomeOf(response, trip.attempt);
   } catch {
@@ -64,12 +73,14 @@ export async function sendTrip(trip, { token, base, fetch = globalThis.fetch }) 
   }
 }
 
-// Exchanges an invitation for a token. Returns the token; null: it is no invitation (any more), perhaps a token itself;
-// undefined: the server does not answer now.
+// Exchanges an invitation for a token. Returns the token; null: the server does not take it (any more); undefined: the
+// server does not answer now.
 export async function acceptInvitation(invitation, { base, fetch = globalThis.fetch }) {
   try {
-    const response = await fetch(new URL('v1/tokens', base), { method: 'POST', headers: authorisation(invitation) });
-    if (response.status === 429 || response.status >= 500) {
+    const response = await fetch(new URL('v1/tokens', base), {
+      method: 'POST', headers: authorisation(invitation), signal: AbortSignal.timeout(patience_ms),
+    });
+    if (response.status === 408 || response.status === 429 || response.status >= 500) {
       return undefined;
     }
     return response.ok ? (await response.json()).token : null;
@@ -78,12 +89,31 @@ export async function acceptInvitation(invitation, { base, fetch = globalThis.fe
   }
 }
 
-// Asks for a trip to be deleted at the server. Returns whether it is gone there.
+// Asks for a trip to be deleted at the server. Returns gone; deleting (it will be); missing: the token's name has no such
+// trip there; undefined: the server did not do it.
 export async function deleteAtServer(sha256, { token, base, fetch = globalThis.fetch }) {
   try {
-    const response = await fetch(new URL(`v1/trips/${sha256}`, base), { method: 'DELETE', headers: authorisation(token) });
-    return response.ok || response.status === 404;
+    const response = await fetch(new URL(`v1/trips/${sha256}`, base), {
+      method: 'DELETE', headers: authorisation(token), signal: AbortSignal.timeout(patience_ms),
+    });
+    return response.status === 404 ? 'missing' : response.status === 202 ? 'deleting' : response.ok ? 'gone' : undefined;
   } catch {
-    return false;
+    return undefined;
+  }
+}
+
+// Asks for the trips of the token's name. Returns { trips } as docs/reference/serve.md describes them, the latest first,
+// { problem: 'no_leave' }, or {} if the server does not answer.
+export async function listAtServer({ token, base, fetch = globalThis.fetch }) {
+  try {
+    const response = await fetch(new URL('v1/trips', base), {
+      headers: authorisation(token), cache: 'no-store', signal: AbortSignal.timeout(patience_ms),
+    });
+    if (response.status === 401 || response.status === 403) {
+      return { problem: 'no_leave' };
+    }
+    return response.ok ? { trips: (await response.json()).trips } : {};
+  } catch {
+    return {};
   }
 }

@@ -9,9 +9,11 @@ import { placeOf } from '../../src/drive/places.js';
 import { QualityWatch } from '../../src/drive/quality.js';
 import { Recording, joined } from '../../src/drive/recording.js';
 import { motionRow, rowsOf, upBy } from '../../src/drive/samples.js';
+import { mergedTrips } from '../../src/drive/server_trips.js';
 import { fixTimes_ms, keptTimes } from '../../src/drive/trimming.js';
 import { tripLog } from '../../src/drive/trip_log.js';
-import { sendTrip } from '../../src/drive/upload.js';
+import { isTooLarge, sendQueued } from '../../src/drive/trips.js';
+import { deleteAtServer, listAtServer, maxUpload_bytes, sendTrip } from '../../src/drive/upload.js';
 import { catalogues, wordsOf } from '../../src/drive/words.js';
 
 const lat_m = 111195; // metres per degree on the sphere, to 1e-5
@@ -277,7 +279,7 @@ async function sent(answers, trip = {}) {
     }
     return next;
   };
-  const outcome = await sendTrip({ sha256: 'ab', body: 'x', attempt: 0, ...trip }, { token: 'key', base: 'https://a.example/m/', fetch });
+  const outcome = await sendTrip({ sha256: 'ab', body: new Blob(['x'], { type: 'application/gzip' }), attempt: 0, ...trip }, { token: 'key', base: 'https://a.example/m/', fetch });
   return { asked, ...outcome };
 }
 
@@ -295,10 +297,57 @@ test('what the server says decides what happens next', async () => {
   assert.equal((await sent([answer(404), answer(503)], { attempt: 99 })).after_s, 900);
   assert.equal((await sent([answer(401)])).outcome, 'no_leave');
   assert.equal((await sent([answer(405)])).outcome, 'no_server');
+  assert.equal((await sent([answer(413)])).outcome, 'too_large');
   assert.deepEqual((await sent([answer(422, {}, { detail: 'hash differs' })])).reason, 'hash differs');
 });
 
 test('a trip whose receipt was lost is not sent twice', async () => {
   assert.deepEqual(await sent([answer(200)], { attempt: 1 }), { asked: ['GET /m/v1/trips/ab Bearer key'], outcome: 'received' });
   assert.deepEqual((await sent([answer(404), answer(202)], { attempt: 1 })).asked, ['GET /m/v1/trips/ab Bearer key', 'PUT /m/v1/trips/ab Bearer key']);
+});
+
+// A trip in a store that has no other.
+function storeOf(trip, log) {
+  return {
+    trips: async () => [trip],
+    log: async () => log,
+    changeTrip: async (id, change) => (trip = change(trip) || trip),
+  };
+}
+
+test('a log that is larger than servers take is not sent, and the trip says so', async () => {
+  const store = storeOf({ id: 'a', state: 'queued', sha256: 'ab' }, { size: maxUpload_bytes + 1 });
+  assert.equal(await sendQueued(store, { base: 'https://a.example/', signalOf: () => undefined, onChange: () => {} }), null);
+  const [trip] = await store.trips();
+  assert.deepEqual([trip.state, trip.problem], ['ended', 'too_large']);
+  assert.ok(isTooLarge(trip) && !isTooLarge({ bytes: maxUpload_bytes }));
+});
+
+test('a deletion at the server is told from one that will be, and from a trip that is not there', async () => {
+  const fateOf = (...answers) => deleteAtServer('ab', { base: 'https://a.example/', fetch: async () => answers[0] ?? Promise.reject(new TypeError()) });
+  assert.deepEqual(await Promise.all([answer(204), answer(202), answer(404), answer(401), answer(503), undefined].map((each) => fateOf(each))),
+    ['gone', 'deleting', 'missing', undefined, undefined, undefined]);
+});
+
+test('a list that the server does not give is told from an empty one', async () => {
+  const listOf = (given) => listAtServer({ base: 'https://a.example/', fetch: async () => given ?? Promise.reject(new TypeError()) });
+  assert.deepEqual(await listOf(answer(200, {}, { trips: [] })), { trips: [] });
+  assert.deepEqual(await listOf(answer(401)), { problem: 'no_leave' });
+  assert.deepEqual(await listOf(answer(503)), {});
+  assert.deepEqual(await listOf(undefined), {});
+});
+
+test('a trip on the phone and at the server is one entry, with its fate', () => {
+  const row = (sha256, state) => ({ sha256, state, received: '2026-05-01T08:00:00Z', bytes: 1, passes: 0 });
+  const known = { trips: [row('b', 'refused'), row('c', 'imported'), row('q', 'working')], asked_ms: 100, isWhole: true };
+  const trips = [
+    { id: '1', sha256: 'a', state: 'received', begun_ms: 1, told_ms: 50 }, { id: '2', sha256: 'b', state: 'received', begun_ms: 2, told_ms: 50 },
+    { id: '3', sha256: 'd', state: 'deleting', begun_ms: 3, told_ms: 50 }, { id: '4', sha256: 'e', state: 'received', begun_ms: 4, told_ms: 150 },
+    { id: '5', sha256: 'q', state: 'queued', begun_ms: 5 }, { id: '6', state: 'recording', begun_ms: 6 },
+  ];
+  const told = (merged) => merged.map(({ sha256, state, row: its }) => `${sha256} ${state} ${its?.state ?? '-'}`);
+  // e was sent after the list was asked for, and is not missing
+  assert.deepEqual(told(mergedTrips(trips, known)), ['c elsewhere imported', 'q queued -', 'e received -', 'd gone -', 'b received refused', 'a missing -']);
+  const cut = told(mergedTrips(trips, { ...known, isWhole: false })); // older ones are not in the list
+  assert.ok(cut.includes('a received -') && cut.includes('d deleting -'), cut.join());
 });

@@ -1,95 +1,20 @@
 // The recorder in Chromium: from the first visit to a map.
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
+import { spawn } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { after, before, describe, it } from 'node:test';
 
 import { chromium } from 'playwright-core';
-import { eventsOf, installPositions, playEvents, readLog, readLogFile } from './player.mjs';
+import {
+  accept, browser, browserOptions, drive, folder, getReady, invitations, macadam, patience_ms, phone, play, program,
+  recorded, savedFile, server, setUp, setting, shortDrive, site, start, tap, tearDown, until,
+} from './phone.mjs';
+import { eventsOf, installPositions, readLog } from './player.mjs';
 import { serveTrips } from './trip_server.mjs';
 
-const { MACADAM_PROGRAM: program, MACADAM_SITE: site } = process.env;
-const source = fileURLToPath(new URL('../../..', import.meta.url));
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-const browserOptions = { executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu', '--host-resolver-rules=MAP phone.example 127.0.0.1 , MAP * ~NOTFOUND , EXCLUDE 127.0.0.1'], timeout: 60_000 };
-const folder = mkdtempSync(join(tmpdir(), 'macadam-drive-'));
-const recipe = `[trips]
-count = 1
-length_km = [4, 5]
-[gnss]
-rate_hz = 1
-latency_s = [0.4, 0.4]
-[[road]]
-iri_mm_per_m = [1.5, 3.5]
-[[car]]
-id = 'phone-car'
-like = 'generic'
-wheelbase_m = 2.62
-cg_to_front_m = 1.15
-sensors = ['acc', 'gyro']
-`;
-
-const patience_ms = 60_000; // of a machine that is busy
-
-let browser;
-let server;
-let drive; // a simulated drive
-let shortDrive; // its first 2.6 km, of which something is left when the ends are gone
-
-const macadam = (...words) => execFileSync(program, words, { cwd: folder, encoding: 'utf8', timeout: 120_000, stdio: ['ignore', 'pipe', 'pipe'] });
-
-// The beginning of a drive, by the receiver's speed (1 Hz).
-function beginning({ columns, rows }, length_m) {
-  const speed = columns.indexOf('gnss_speed_mps');
-  let gone_m = 0;
-  const past = rows.findIndex((row) => (gone_m += row[speed] ?? 0) > length_m);
-  return { columns, rows: rows.slice(0, past) };
-}
-
-// A new phone. `complaints` collects what the browser's console objects to, and every request to another host.
-async function phone({ language = 'en-GB', colorScheme = 'light', width = 320, url = server.url, of = browser } = {}) {
-  const context = await of.newContext({ locale: language, colorScheme, viewport: { width, height: 640 }, acceptDownloads: true });
-  const complaints = [];
-  await context.addInitScript(installPositions);
-  const page = await context.newPage();
-  page.setDefaultTimeout(patience_ms);
-  page.on('console', (message) => message.type() === 'error' && !/Failed to load resource|net::ERR/.test(message.text()) && complaints.push(message.text()));
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('request', (request) => ![new URL(url).hostname, '127.0.0.1'].includes(new URL(request.url()).hostname) && !request.url().startsWith('blob:') && complaints.push(request.url()));
-  await page.goto(url);
-  return { context, page, complaints };
-}
-
-const tap = (page, name) => page.getByRole('button', { name }).first().click();
-
-async function getReady(page) {
-  await tap(page, 'Understood');
-  await tap(page, 'Keep');
-}
-
-async function start(page) {
-  await tap(page, 'Start trip');
-  await page.getByRole('button', { name: 'End trip' }).waitFor();
-}
-
-const play = (page, events, options = {}) => page.evaluate(playEvents, { events: JSON.stringify(events), begin_ms: 1000, ...options });
-
-async function recorded(page, events = eventsOf(shortDrive)) {
-  await getReady(page);
-  await start(page);
-  await play(page, events);
-  await tap(page, 'End trip');
-  await page.getByRole('button', { name: /^Save file/ }).waitFor();
-}
-
-async function savedFile(page) {
-  const [download] = await Promise.all([page.waitForEvent('download'), tap(page, /^Save file/)]);
-  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
-}
 
 // IRI by segment of one log, as `import` reads it.
 function iriOf(name, bytes) {
@@ -112,14 +37,6 @@ function compared(found, expected) {
 
 const logText = ({ columns, rows }) =>
   `# macadam-trip 1\n# vehicle_id: phone-car\n# t0_utc: 2026-05-01T08:00:00Z\n${[columns.join(','), ...rows.map((row) => row.map((cell) => cell ?? '').join(','))].join('\n')}\n# end rows: ${rows.length}\n`;
-
-// Waits until it is so. (Playwright's waitForFunction takes a promise for yes.)
-async function until(isSo, what) {
-  for (const end = Date.now() + patience_ms; !(await isSo());) {
-    assert.ok(Date.now() < end, what);
-    await new Promise((done) => { setTimeout(done, 50); });
-  }
-}
 
 // The last motion row (samples.js) in the phone's database; null: it has none.
 const lastStored = (page) => page.evaluate(async () => {
@@ -146,23 +63,8 @@ let fileValues;
 const fileIri = () => (fileValues ??= iriOf('file', logText(drive)));
 
 describe('the recorder in the browser', () => {
-  before(async () => {
-    writeFileSync(join(folder, 'recipe.toml'), recipe);
-    macadam('simulate', '-o', 'fleet', '--network', join(source, 'sample_data/fleet/network.osm.pbf'), '--recipe', 'recipe.toml', '--quiet');
-    // Four minutes of driving tell friction to 10 N, or 10 % of the IRI: stated, as simulated, so that what the recorder changes is seen.
-    const car = join(folder, 'fleet/vehicles/phone-car.toml');
-    writeFileSync(car, readFileSync(car, 'utf8').replace('[half_car]', '[half_car]\nfriction_n = 40'));
-    drive = readLogFile(join(folder, 'fleet/trips', readdirSync(join(folder, 'fleet/trips'))[0]));
-    shortDrive = beginning(drive, 2600);
-    server = await serveTrips(site);
-    browser = await chromium.launch(browserOptions);
-  });
-
-  after(async () => {
-    await browser?.close();
-    server?.close();
-    rmSync(folder, { recursive: true, force: true });
-  });
+  before(setUp);
+  after(tearDown);
 
   it('a drive recorded in the browser has the IRI of the same drive as a file', async () => {
     const { context, page, complaints } = await phone();
@@ -216,44 +118,6 @@ describe('the recorder in the browser', () => {
     await context.close();
   });
 
-  it('nothing leaves the phone without a tap; the receipt deletes the trip', async () => {
-    const { context, page } = await phone();
-    await recorded(page);
-    const { bytes } = await savedFile(page);
-    assert.ok(!server.asked.some((line) => line.includes('/v1/')), 'asked before a tap');
-    server.mood.next = 'lose_answer';
-    await context.setOffline(true);
-    await page.waitForFunction(() => !navigator.onLine);
-    await tap(page, /^Send/);
-    await page.getByText('Waits for a network').waitFor();
-    assert.ok(!server.asked.some((line) => line.includes('/v1/')));
-    await context.setOffline(false); // now it goes; the server has it, but its answer is lost; a second later it is asked for
-    await page.getByText('Received by the server and deleted here.').waitFor();
-    assert.deepEqual(server.asked.filter((line) => line.includes('/v1/')).map((line) => line.split(' ')[0]), ['PUT', 'GET']);
-    assert.deepEqual([...server.trips.values()][0], bytes);
-    assert.equal(await page.getByRole('button', { name: /^Save file/ }).count(), 0);
-    page.once('dialog', (dialog) => dialog.accept());
-    await tap(page, /^Delete at the server/);
-    await page.getByText('Deleted at the server.').waitFor();
-    assert.equal(server.trips.size, 0);
-    await context.close();
-  });
-
-  it('an invitation is kept, leaves no trace in the address, and opens the server', async () => {
-    const closed = await serveTrips(site, { token: 'an-invitation-of-32-letters-0123' });
-    const { context, page } = await phone({ url: closed.url });
-    await recorded(page);
-    await tap(page, /^Send/);
-    await page.getByText('The server wants an invitation').waitFor();
-    await page.goto(`${closed.url}#invite=an-invitation-of-32-letters-0123`);
-    await page.reload();
-    await tap(page, /^Send/);
-    await page.getByText('Received by the server').waitFor();
-    assert.ok(!page.url().includes('#'));
-    await context.close();
-    closed.close();
-  });
-
   it('a drive goes from the phone to the map: by an invitation, to a real server, which imports it', async () => {
     const cars = join(folder, 'cars');
     mkdirSync(cars);
@@ -273,13 +137,7 @@ describe('the recorder in the browser', () => {
       writeFileSync(join(cars, `${id}.toml`), readFileSync(join(folder, 'fleet/vehicles/phone-car.toml'), 'utf8').replace('"phone-car"', `"${id}"`));
       await tap(page, /^Send/);
       await page.getByText('Received by the server and deleted here.').waitFor();
-      const token = await page.evaluate(async () => { // as the page keeps it
-        const open = indexedDB.open('macadam-drive');
-        await new Promise((done) => { open.onsuccess = done; });
-        const all = open.result.transaction('settings').objectStore('settings').get('token');
-        await new Promise((done) => { all.onsuccess = done; });
-        return all.result;
-      });
+      const token = await setting(page, 'token');
       let fate;
       for (const end = Date.now() + 120_000; !fate || ['queued', 'working'].includes(fate.state);) {
         assert.ok(Date.now() < end, 'not imported in two minutes');
@@ -288,6 +146,7 @@ describe('the recorder in the browser', () => {
         fate = (await answer.json()).trips[0];
       }
       assert.equal(fate.state, 'imported');
+      await page.getByText(`Evaluated. Road segments of about 20 m: ${fate.passes}.`).waitFor();
       const [head, ...rows] = macadam('query', 'way.gpkg', '--bbox=-180,-90,180,90', '--format', 'csv').trim().split('\n').map((line) => line.split(','));
       const [segment, iri] = ['segment', 'iri'].map((column) => head.indexOf(column));
       const { count, ratio } = compared(new Map(rows.map((row) => [row[segment], Number(row[iri])]).filter(([, value]) => value > 0)), fileIri());
@@ -297,7 +156,7 @@ describe('the recorder in the browser', () => {
       await until(() => readdirSync(join(folder, 'way.gpkg.uploads/spool')).length === 0, 'the log is not erased');
       page.once('dialog', (dialog) => dialog.accept());
       await tap(page, /^Delete at the server/);
-      await page.getByText('Deleted at the server.').waitFor();
+      await page.getByText(/^Deleted at the server/).waitFor();
       assert.deepEqual(complaints, []);
       await context.close();
     } finally {
@@ -423,24 +282,6 @@ describe('the recorder in the browser', () => {
     await context.close();
   });
 
-  it('a trip that is to be sent while another is on its way is sent after it', async () => {
-    const { context, page } = await phone();
-    await recorded(page);
-    await start(page);
-    await play(page, eventsOf(shortDrive));
-    await tap(page, 'End trip');
-    await page.getByRole('button', { name: /^Save file/ }).nth(1).waitFor();
-    let release;
-    const held = new Promise((resolve) => { release = resolve; });
-    await page.route('**/v1/trips/*', async (route) => { await held; await route.continue(); });
-    await Promise.all([page.waitForRequest('**/v1/trips/*'), tap(page, /^Send/)]);
-    await tap(page, /^Send/);
-    await until(async () => (await page.getByRole('button', { name: /^Send/ }).count()) === 0, 'the second is not queued');
-    release();
-    await page.getByText('Received by the server and deleted here.').nth(1).waitFor();
-    await context.close();
-  });
-
   it('a leave to read positions that is withdrawn during the drive is told until positions come again', async () => {
     const { context, page } = await phone();
     await getReady(page);
@@ -469,7 +310,8 @@ describe('the recorder in the browser', () => {
 
   for (const [language, colorScheme] of [['en-GB', 'light'], ['de-AT', 'dark']]) {
     it(`every view passes axe, fits 320 px and works by keys alone: ${language}, ${colorScheme}`, async () => {
-      const { context, page, complaints } = await phone({ language, colorScheme });
+      const closed = await serveTrips(site, { invitations });
+      const { context, page, complaints } = await phone({ language, colorScheme, url: `${closed.url}#invite=${invitations[0]}` });
       const words = (en, de) => (language.startsWith('de') ? de : en);
       const axeSource = readFileSync(axe, 'utf8');
       const look = async (name) => {
@@ -512,8 +354,20 @@ describe('the recorder in the browser', () => {
       await press(words(/^Send/, /^Senden/));
       await page.getByText(words('Received by the server', 'Vom Server empfangen')).waitFor();
       await look('received');
+      closed.fates.set([...closed.trips.keys()][0], { state: 'refused', reason: 'row 17: acc_z_mps2 is 4e9, expected at most 200' });
+      closed.trips.set('0'.repeat(64), Buffer.from('of another phone'));
+      closed.owners.set('0'.repeat(64), invitations[0]);
+      closed.fates.set('0'.repeat(64), { state: 'imported', passes: 1234 });
+      await page.reload();
+      await page.getByText(words('The server could not use it', 'Der Server konnte sie nicht verwenden')).waitFor();
+      await look('fates');
+      accept(page);
+      await press(words(/^Delete at the server/, /^Auf dem Server löschen/));
+      await page.getByText(words(/^Deleted at the server/, /^Auf dem Server gelöscht/)).waitFor();
+      await look('deleted');
       assert.deepEqual(complaints, []);
       await context.close();
+      closed.close();
     });
   }
 });

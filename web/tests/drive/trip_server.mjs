@@ -1,4 +1,4 @@
-// A server for tests: the built page, and `PUT /v1/trips/{sha256}` as docs/reference/recorder.md describes it.
+// A server for tests: the built page, and what docs/reference/recorder.md asks of a server.
 import { createHash } from 'node:crypto';
 import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -9,18 +9,64 @@ const types = {
   '.webmanifest': 'application/manifest+json',
 };
 
-// trips: the bodies that were acknowledged, by hash. mood.next: what befalls the next PUT ('lose_answer', a status, or undefined).
-export async function serveTrips(folder, { token = null } = {}) {
+// invitations: whose tokens alone are taken; empty: all may send. trips: the bodies that were acknowledged, by hash; fates: what
+// became of them, by hash. mood.next: what befalls the next PUT ('lose_answer', a status, or undefined); mood.token: POSTs
+// ('lose_answer'); mood.hold: a promise for which answers to a PUT wait.
+export async function serveTrips(folder, { invitations = [] } = {}) {
   const trips = new Map();
+  const owners = new Map();
+  const fates = new Map();
+  const tokens = new Map(); // the one token of each invitation
+  const spent = new Set(); // invitations that can be exchanged no more
   const asked = [];
-  const mood = { next: undefined };
+  const sentTypes = [];
+  const mood = { next: undefined, token: undefined, hold: undefined };
+  const fateOf = (sha256) => ({
+    sha256, state: 'queued', received: '2026-05-01T08:00:00Z', bytes: trips.get(sha256)?.length, trips: 0, passes: 0, ...fates.get(sha256),
+  });
+  const taken = (name) => { const value = mood[name]; mood[name] = undefined; return value; };
+
+  function exchange(text, send) {
+    if (!invitations.includes(text) || spent.has(text)) {
+      send(401, { detail: 'the invitation was accepted before, has expired or is none' });
+      return;
+    }
+    tokens.set(text, `token-${asked.length}-of-${invitations.indexOf(text)}`);
+    if (mood.token === 'lose_answer') {
+      send(502, { title: 'bad gateway' }); // as a proxy says that lost it
+    } else {
+      send(201, { token: tokens.get(text) });
+    }
+  }
+
+  async function put(request, sha256, body, owner, send) {
+    if (typeof mood.next === 'number') {
+      send(taken('next'), { title: 'not now' }, { 'Retry-After': '1' });
+      return;
+    }
+    if (createHash('sha256').update(body).digest('hex') !== sha256) {
+      send(422, { detail: 'the hash differs' });
+      return;
+    }
+    const status = trips.has(sha256) ? 200 : 202;
+    trips.set(sha256, body);
+    owners.set(sha256, owner);
+    sentTypes.push(request.headers['content-type']);
+    await mood.hold;
+    if (taken('next') === 'lose_answer') {
+      send(502, { title: 'bad gateway' }, { 'Retry-After': '1' });
+    } else {
+      send(status, fateOf(sha256), { Location: `/v1/trips/${sha256}` });
+    }
+  }
+
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, 'http://x');
     asked.push(`${request.method} ${pathname}`);
     const [, sha256] = /^\/v1\/trips\/([0-9a-f]{64})$/.exec(pathname) ?? [];
     const send = (status, body, headers = {}) =>
       response.writeHead(status, { 'Content-Type': 'application/json', ...headers }).end(body && JSON.stringify(body));
-    if (!sha256) {
+    if (!pathname.startsWith('/v1/')) {
       const file = join(folder, normalize(pathname.endsWith('/') ? `${pathname}index.html` : pathname));
       if (!file.startsWith(folder) || !existsSync(file) || !statSync(file).isFile()) {
         send(404, { title: 'not found' });
@@ -32,36 +78,30 @@ export async function serveTrips(folder, { token = null } = {}) {
     }
     const chunks = [];
     request.on('data', (chunk) => chunks.push(chunk)).on('end', () => {
-      if (token && request.headers.authorization !== `Bearer ${token}`) {
+      const text = request.headers.authorization?.replace('Bearer ', '');
+      const owner = invitations.length === 0 ? '' : invitations.find((invitation) => text && tokens.get(invitation) === text);
+      const isOwn = trips.has(sha256) && owners.get(sha256) === owner;
+      if (pathname === '/v1/tokens') {
+        exchange(text, send);
+      } else if (owner === undefined) {
         send(401, { title: 'token needed' }, { 'WWW-Authenticate': 'Bearer' });
+      } else if (pathname === '/v1/trips') {
+        send(200, { trips: [...trips.keys()].filter((hash) => owners.get(hash) === owner).reverse().map(fateOf) });
+      } else if (request.method === 'PUT') {
+        put(request, sha256, Buffer.concat(chunks), owner, send);
+      } else if (!isOwn) {
+        send(404, { title: 'not found' });
       } else if (request.method === 'GET') {
-        send(trips.has(sha256) ? 200 : 404, { sha256 });
-      } else if (request.method === 'DELETE') {
-        send(trips.delete(sha256) ? 204 : 404);
-      } else if (typeof mood.next === 'number') {
-        const status = mood.next;
-        mood.next = undefined;
-        send(status, { title: 'not now' }, { 'Retry-After': '1' });
+        send(200, fateOf(sha256));
       } else {
-        const body = Buffer.concat(chunks);
-        if (createHash('sha256').update(body).digest('hex') !== sha256) {
-          send(422, { detail: 'the hash differs' });
-          return;
-        }
-        const status = trips.has(sha256) ? 200 : 202;
-        trips.set(sha256, body);
-        if (mood.next === 'lose_answer') {
-          mood.next = undefined;
-          send(502, { title: 'bad gateway' }, { 'Retry-After': '1' }); // as a proxy says that lost it
-          return;
-        }
-        send(status, { sha256 }, { Location: `/v1/trips/${sha256}` });
+        trips.delete(sha256);
+        send(204);
       }
     });
   });
   await new Promise((ready) => { server.listen(0, '127.0.0.1', ready); });
   return {
-    url: `http://127.0.0.1:${server.address().port}/drive/`, trips, asked, mood,
+    url: `http://127.0.0.1:${server.address().port}/drive/`, trips, owners, fates, tokens, spent, asked, sentTypes, mood,
     close: () => { server.closeAllConnections(); server.close(); },
   };
 }

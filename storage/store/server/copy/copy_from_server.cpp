@@ -30,30 +30,27 @@ struct ServerCopy {
 
 } // namespace
 
-StoreCopy
-copy_from_server(const std::string& address, const fs::path& file, const Progress& progress) {
+void expect_new_file(const fs::path& file) {
     std::error_code none;
     if (fs::exists(fs::symlink_status(file, none))) {
         throw InputError{
             fmt::format("{}: already exists, expected the name of a new file", file.string())};
     }
-    ServerConnection server{address};
-    stop_writers(server);
-    server.begin(true);
-    see_all_cells(server);
-    expect_server_schema(server);
-    AtomicFileSet whole{file};
-    Database database{whole.main_file(), Database::Access::create, file};
-    RowsFromServer rows{server, database, progress};
-    fill_copy(rows, database, ServerContent::all);
+}
+
+StoreCopy finish_copy(ServerConnection& server,
+                      Database& database,
+                      AtomicFileSet& whole,
+                      const std::string& original,
+                      const Progress& progress) {
+    const auto file = database.file();
     const StoreCopy copy{
         .trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
         .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
         .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
         .by_superuser = server.is_superuser(),
         .key_file = key_file_of(file)};
-    if (const auto original = digest_of_server(server, rows.chunk_size(), progress);
-        original != copy.digest) {
+    if (original != copy.digest) {
         throw InputError{fmt::format("{}: the copy has the digest {}, expected {}; nothing was "
                                      "written",
                                      file.string(),
@@ -69,6 +66,22 @@ copy_from_server(const std::string& address, const fs::path& file, const Progres
         write_key(copy.key_file, *key);
     }
     return copy;
+}
+
+StoreCopy
+copy_from_server(const std::string& address, const fs::path& file, const Progress& progress) {
+    expect_new_file(file);
+    ServerConnection server{address};
+    stop_writers(server);
+    server.begin(true);
+    see_all_cells(server);
+    expect_server_schema(server);
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
+    RowsFromServer rows{server, database, progress};
+    fill_copy(rows, database, ServerContent::all);
+    return finish_copy(
+        server, database, whole, digest_of_server(server, rows.chunk_size(), progress), progress);
 }
 
 void copy_network_from_server(ServerConnection& server,

@@ -31,12 +31,6 @@ constexpr std::array tables_of_publications{"published_state",
 /// Tables that fusion of chosen passes reads besides the passes.
 constexpr std::array tables_of_fusion{"fusion_setting", "valid_from", "control_section"};
 
-/// Rows of segments are never used twice, also those that a later map removed: publications tell by
-/// them which segments they knew.
-constexpr const char* free_rows_of_segments =
-    "UPDATE sqlite_sequence SET seq = max(seq, (SELECT coalesce(max(last_segment), 0)"
-    " FROM publication)) WHERE name = 'segment'";
-
 void fill_new(RowsFromServer& rows, Database& file, const std::function<void()>& fill) {
     add_geometry_functions(file);
     fill_new_store(file, std::string{rows.classes().name}, rows.privacy(), [&] {
@@ -106,6 +100,11 @@ void copy_trips_of_passes(RowsFromServer& rows,
 
 } // namespace
 
+void reserve_published_rows(Database& file) {
+    file.run("UPDATE sqlite_sequence SET seq = max(seq, (SELECT coalesce(max(last_segment), 0)"
+             " FROM publication)) WHERE name = 'segment'");
+}
+
 void fill_copy(RowsFromServer& rows, Database& file, ServerContent content) {
     fill_new(rows, file, [&] {
         for (const auto& table : server_tables()) {
@@ -128,7 +127,7 @@ void fill_copy(RowsFromServer& rows, Database& file, ServerContent content) {
             }
         }
         if (content == ServerContent::all) {
-            file.run(free_rows_of_segments);
+            reserve_published_rows(file);
         }
     });
 }

@@ -6,9 +6,9 @@
 #include "storage/postgres/server_connection.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/records/privacy_profile.hpp"
+#include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_tables.hpp"
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,13 +17,6 @@
 #include <vector>
 
 namespace macadam {
-
-/// Chunk on a server: its map tile, and the row of its first segment.
-struct ServerChunk {
-    std::int32_t cell;
-    std::int64_t row;
-    friend auto operator<=>(const ServerChunk&, const ServerChunk&) = default;
-};
 
 /// Copies rows of a database on a server into the tables of a file. Rows of chunks are copied for
 /// all chunks or for some, which must not be empty. Consistent only within a transaction.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/common/progress.hpp"
+#include "storage/atomic/atomic_file_set.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/sqlite/lock_wait_policy.hpp"
 #include "storage/store/connection/store_connection.hpp"
@@ -18,7 +19,7 @@ namespace macadam {
 struct StoreCopy {
     std::size_t trips = 0;
     std::size_t passes = 0;
-    std::string digest;             ///< equal on both sides
+    std::string digest;             ///< equal on both sides; of a part, of its chunks
     bool by_superuser = false;      ///< of the server
     bool is_activity_open = false;  ///< of a crowd on a server, see reader_rights.hpp
     std::filesystem::path key_file; ///< where the key of the copy is, if it is at hand
@@ -40,6 +41,20 @@ StoreCopy copy_to_server(const std::filesystem::path& file,
 StoreCopy copy_from_server(const std::string& address,
                            const std::filesystem::path& file,
                            const Progress& progress);
+
+/// \throws InputError  if a file of this name exists.
+void expect_new_file(const std::filesystem::path& file);
+
+/// Ends a copy of a database on a server, or of a part of it: compares its digest with that on the
+/// server, ends the transaction there, puts the file in place and its key beside it.
+///
+/// \param database  the new file, with the name of its place for messages
+/// \throws InputError  if the digests differ.
+StoreCopy finish_copy(ServerConnection& server,
+                      Database& database,
+                      AtomicFileSet& whole,
+                      const std::string& original,
+                      const Progress& progress);
 
 /// Copies roads and settings alone to a new file, a database without trips. Within the caller's
 /// transaction.

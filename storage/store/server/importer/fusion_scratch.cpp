@@ -2,6 +2,7 @@
 
 #include "storage/postgres/copy_stream.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/rows/pass_row.hpp"
 #include "storage/store/schema/schema_sql.hpp"
 #include "storage/store/server/server_rows.hpp"
@@ -20,8 +21,9 @@ namespace {
 constexpr std::size_t most_known_chunks = 20'000; // some 100 MB of segments
 
 constexpr const char* empty_tables =
-    "DELETE FROM pass; DELETE FROM trace; DELETE FROM trip; DELETE FROM valid_from;"
-    "DELETE FROM calibration; DELETE FROM calibration_period; DELETE FROM fusion_setting";
+    "DELETE FROM pass; DELETE FROM trace; DELETE FROM trip; DELETE FROM vehicle;"
+    "DELETE FROM valid_from; DELETE FROM calibration; DELETE FROM calibration_period;"
+    "DELETE FROM fusion_setting";
 
 } // namespace
 
@@ -97,6 +99,7 @@ void FusionScratch::add_segments(std::span<const std::int64_t> chunks) {
 /// Copies what fusion looks up besides drives.
 void FusionScratch::copy_rules(const ChunkConditions& conditions) {
     copy_rows("fusion_setting", "");
+    copy_rows("vehicle", fmt::format(" WHERE pseudonym = '{}'", unknown_car));
     copy_rows("valid_from", " WHERE " + conditions.segments);
 }
 

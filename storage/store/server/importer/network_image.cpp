@@ -1,6 +1,7 @@
 #include "storage/store/server/importer/network_image.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/jobs/worker_register.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/user_files.hpp"
@@ -12,30 +13,42 @@
 
 namespace macadam {
 
+namespace {
+
+constexpr const char* settings_rows = "SELECT key, value FROM macadam.meta"
+                                      " WHERE key IN ('network_rows', 'privacy', 'key_id')";
+
+} // namespace
+
 ServerStatement asking_for_settings() {
-    return ServerStatement{"SELECT key, value FROM macadam.meta"
-                           " WHERE key IN ('network_rows', 'privacy', 'key_id')"};
+    return ServerStatement{fmt::format("{} UNION ALL {}", settings_rows, results_version_row)};
 }
 
 ServerSettings settings_in(const std::vector<ServerRow>& rows) {
     ServerSettings settings;
     for (const auto& row : rows) {
         const auto value = row[1].value_or("");
-        (row[0] == "network_rows" ? settings.network_rows
-         : row[0] == "privacy"    ? settings.privacy
-                                  : settings.key_id) = value;
+        (row[0] == "network_rows"      ? settings.network_rows
+         : row[0] == "privacy"         ? settings.privacy
+         : row[0] == "results_version" ? settings.results_version
+                                       : settings.key_id) = value;
     }
     return settings;
 }
 
 ServerSettings read_server_settings(ServerConnection& server) {
-    return settings_in(server.rows(asking_for_settings().sql));
+    return settings_in(server.rows(settings_rows));
 }
 
 void expect_same_settings(const ServerConnection& server,
                           const ServerSettings& before,
-                          const ServerSettings& now) {
-    if (now != before) {
+                          const ServerSettings& now,
+                          std::optional<int> results_version) {
+    if (results_version) {
+        expect_results_version(server, now.results_version, *results_version);
+    }
+    if (now.network_rows != before.network_rows || now.privacy != before.privacy ||
+        now.key_id != before.key_id) {
         throw InputError{fmt::format("{}: its roads or its key were changed in the meantime; "
                                      "nothing was written, run the command again",
                                      server.address())};

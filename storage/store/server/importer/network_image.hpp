@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,21 +19,25 @@ struct ServerSettings {
     std::string network_rows; ///< name of the rows of its network
     std::string privacy;
     std::string key_id;
-    friend bool operator==(const ServerSettings&, const ServerSettings&) = default;
+    std::string results_version{}; ///< of its workers; "" before the first one
 };
 
+/// Without the version of results, which readers may not see.
 ServerSettings read_server_settings(ServerConnection& server);
 
-/// \name The same among other statements
+/// \name All of them, among other statements
 /// @{
 ServerStatement asking_for_settings();
 ServerSettings settings_in(const std::vector<ServerRow>& rows);
 /// @}
 
+/// \param results_version  of the program; `std::nullopt` fits all
 /// \throws InputError  if they have changed, and nothing is to be written.
+/// \throws OtherResults  if workers have another version of results.
 void expect_same_settings(const ServerConnection& server,
                           const ServerSettings& before,
-                          const ServerSettings& now);
+                          const ServerSettings& now,
+                          std::optional<int> results_version);
 
 /// Opens the roads and settings of a database on a server for reading: a database without trips
 /// that is kept among this user's files, fetched if it is not there yet.

@@ -191,11 +191,10 @@ std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunk
     return locked;
 }
 
-std::vector<std::int64_t>
-ServerFusion::fuse(std::span<const std::int64_t> chunks,
-                   bool waits,
-                   std::optional<std::int64_t>& audit,
-                   std::vector<std::int64_t>& segments) {
+std::vector<std::int64_t> ServerFusion::fuse(std::span<const std::int64_t> chunks,
+                                             bool waits,
+                                             std::optional<std::int64_t>& audit,
+                                             std::vector<std::int64_t>& segments) {
     auto audit_now = audit; // that of this transaction
     ServerTransaction all{*server_};
     expect_same_();

@@ -1,6 +1,7 @@
 #include "storage/store/server/importer/server_importer.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/jobs/worker_register.hpp"
 #include "storage/store/rows/known_trips.hpp"
 #include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/importer/network_image.hpp"
@@ -26,11 +27,11 @@ class ServerImporter final : public ImportTarget {
 public:
     ServerImporter(std::unique_ptr<ServerConnection> server,
                    ServerSettings settings,
-                   std::shared_ptr<StoreConnection> image)
+                   std::shared_ptr<StoreConnection> image,
+                   std::optional<int> results_version)
         : server_{std::move(server)}, settings_{std::move(settings)}, image_{std::move(image)},
-          rows_{*image_}, key_{read_own_key()}, fusion_{*server_, *image_, rows_, [this] {
-                                                            expect_same();
-                                                        }} {}
+          results_version_{results_version}, rows_{*image_}, key_{read_own_key()},
+          fusion_{*server_, *image_, rows_, [this] { expect_same(); }} {}
 
     bool contains_trip(const std::string& sha256) override {
         return !server_->rows("SELECT 1 FROM macadam.trip WHERE sha256 = $1", {sha256}).empty() &&
@@ -78,7 +79,8 @@ public:
         if (std::ranges::any_of(trips, [](const auto& t) { return !t.trip->vehicle_id.empty(); })) {
             make_missing_key();
         }
-        const TripTarget target{*server_, cell_drives_, settings_, *image_, rows_, key()};
+        const TripTarget target{
+            *server_, cell_drives_, settings_, *image_, rows_, key(), results_version_};
         return write_trips(target, trips);
     }
 
@@ -150,7 +152,8 @@ private:
     /// roads.
     void expect_same() {
         const std::array begin{sharing_database(), asking_for_settings()};
-        expect_same_settings(*server_, settings_, settings_in(server_->rows_of_all(begin).at(1)));
+        expect_same_settings(
+            *server_, settings_, settings_in(server_->rows_of_all(begin).at(1)), results_version_);
     }
 
     /// Waits until a trip that the server has is on its standby too: whoever stored it may still
@@ -181,6 +184,7 @@ private:
     CellDrives cell_drives_{*server_};
     ServerSettings settings_;
     std::shared_ptr<StoreConnection> image_;
+    std::optional<int> results_version_;
     ImageRows rows_;
     std::optional<PrivacyKey> key_;
     ServerFusion fusion_;
@@ -188,7 +192,9 @@ private:
 
 } // namespace
 
-ServerImport open_server_import(const std::string& address, const Progress& progress) {
+ServerImport open_server_import(const std::string& address,
+                                const Progress& progress,
+                                std::optional<int> results_version) {
     auto server = std::make_unique<ServerConnection>(address);
     // All that an import looks up has an index, and tables grow faster than what the planner knows
     // of them.
@@ -201,12 +207,16 @@ ServerImport open_server_import(const std::string& address, const Progress& prog
                                      "macadam_importer (docs/reference/postgresql.md)",
                                      address)};
     }
+    if (results_version) {
+        expect_results_version(*server, *results_version);
+    }
     auto image = open_network_image(*server, settings, progress);
     one_moment.commit();
     ServerImport open;
     open.image = image;
-    open.trips =
-        std::make_shared<ServerImporter>(std::move(server), std::move(settings), std::move(image));
+    open.by_superuser = server->is_superuser();
+    open.trips = std::make_shared<ServerImporter>(
+        std::move(server), std::move(settings), std::move(image), results_version);
     return open;
 }
 

@@ -5,6 +5,7 @@
 #include "storage/store/importer/import_target.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace macadam {
@@ -13,6 +14,7 @@ namespace macadam {
 struct ServerImport {
     std::shared_ptr<StoreConnection> image; ///< its roads and settings, without trips
     std::shared_ptr<ImportTarget> trips;
+    bool by_superuser = false; ///< of the server
 };
 
 /// Opens a database on a server for imports. Any number of workers may import and fuse at once: the
@@ -26,7 +28,12 @@ struct ServerImport {
 /// giving it again settles it.
 ///
 /// \param progress  of fetching the roads
+/// \param results_version  of the program (app/pipeline/results_version.hpp): nothing is written
+///                         once workers have another one; `std::nullopt` fits all.
 /// \throws InputError  if the server cannot be reached, or has no road database.
-ServerImport open_server_import(const std::string& address, const Progress& progress = {});
+/// \throws OtherResults  if workers have another version of results.
+ServerImport open_server_import(const std::string& address,
+                                const Progress& progress = {},
+                                std::optional<int> results_version = {});
 
 } // namespace macadam

@@ -200,7 +200,8 @@ private:
             statements.push_back(adding_trip(candidate));
         }
         const auto rows = to_->server.rows_of_all(statements);
-        expect_same_settings(to_->server, to_->settings, settings_in(rows.at(1)));
+        expect_same_settings(
+            to_->server, to_->settings, settings_in(rows.at(1)), to_->results_version);
         for (std::size_t i = 0; i < candidates_.size(); ++i) {
             const auto& found = rows.at(before + i);
             if (!found.empty()) { // it was not forgotten

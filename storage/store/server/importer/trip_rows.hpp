@@ -6,6 +6,7 @@
 #include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/importer/network_image.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,10 @@ struct TripTarget {
     ServerConnection& server;
     CellDrives& cells; ///< of the same connection
     const ServerSettings& settings;
-    StoreConnection& image; ///< roads of the database
-    ImageRows& rows;        ///< of the same image
-    const PrivacyKey* key;  ///< null: the trips name no cars
+    StoreConnection& image;             ///< roads of the database
+    ImageRows& rows;                    ///< of the same image
+    const PrivacyKey* key;              ///< null: the trips name no cars
+    std::optional<int> results_version; ///< of the program; `std::nullopt` fits all
 };
 
 /// Writes trips with their drives and events, and marks their chunks, in one transaction of four
@@ -29,7 +31,8 @@ struct TripTarget {
 ///
 /// \returns for each trip whether it is new.
 ///
-/// \throws InputError  also if the roads or the key of the database were changed.
+/// \throws InputError  also if the roads, the key or the version of results of the database were
+///                     changed.
 std::vector<bool> write_trips(const TripTarget& target, std::span<const NewTrip> trips);
 
 } // namespace macadam

@@ -3,12 +3,17 @@
 
 #include "mapping/conflation/network_conflation.hpp"
 #include "storage/postgres/server_connection.hpp"
+#include "storage/store/rows/known_trips.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
 #include "support/files/files.hpp"
+#include "support/program/places.hpp"
+#include "support/program/program.hpp"
+#include "support/program/shell.hpp"
 #include "support/roads/crowd_drives.hpp"
 #include "support/roads/engine_world.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <optional>
@@ -144,10 +149,7 @@ private:
 INSTANTIATE_TEST_SUITE_P(Engines,
                          CrowdOnAnyEngine,
                          ::testing::Values(Engine::geopackage, Engine::postgresql),
-                         [](const auto& engine) {
-                             return engine.param == Engine::geopackage ? "GeoPackage"
-                                                                       : "PostgreSQL";
-                         });
+                         [](const auto& engine) { return name_of(engine.param); });
 
 TEST_P(CrowdOnAnyEngine, ShowsThePublicItsPublicationsAlone) {
     make();
@@ -286,22 +288,24 @@ TEST_P(CrowdOnAnyEngine, MayHaveBeenOneOfOwnCars) {
                 HasSubstr("is already a crowd database"));
 }
 
+void drive_in_january(const EngineDatabase& database, int cars) {
+    const auto store = database.import();
+    for (int car = 0; car < cars; ++car) {
+        const CrowdDrive drive{car, car, january_ms, 2000, true, road_count};
+        const auto record = drive.record();
+        const auto passes = drive.passes();
+        const auto events = drive.events();
+        const NewTrip trip{&record, passes, {}, false, events};
+        store.trips->add_trips({&trip, 1});
+    }
+    fuse_all(*store.trips);
+}
+
 TEST(CrowdOnAServer, GoesThereAndBackWithItsPublications) {
     const auto folder = test_folder();
     EngineDatabase database{
         Engine::postgresql, folder, roads_in_a_row(road_count), of(PrivacyProfile::crowd)};
-    {
-        const auto store = database.import();
-        for (int car = 0; car < 7; ++car) {
-            const CrowdDrive drive{car, car, january_ms, 2000, true, road_count};
-            const auto record = drive.record();
-            const auto passes = drive.passes();
-            const auto events = drive.events();
-            const NewTrip trip{&record, passes, {}, false, events};
-            store.trips->add_trips({&trip, 1});
-        }
-        fuse_all(*store.trips);
-    }
+    drive_in_january(database, 7);
     database.maintain().maintenance.publish(roads_in_a_row(road_count), february_ms);
     const auto back = folder / "back.gpkg";
     const auto copied = copy_from_server(database.name(), back, {});
@@ -319,6 +323,29 @@ TEST(CrowdOnAServer, GoesThereAndBackWithItsPublications) {
         auto store = RoadStore::open(file);
         EXPECT_EQ(store.maintenance.publish(roads_in_a_row(road_count), march_ms).changed, 0U);
     }
+}
+
+TEST(CrowdOnAServer, LosesForgottenTripsThatWaitToBePublishedAgainAfterARestore) {
+    const auto folder = test_folder();
+    EngineDatabase database{
+        Engine::postgresql, folder, roads_in_a_row(road_count), of(PrivacyProfile::crowd)};
+    drive_in_january(database, 3);
+    ServerConnection server{database.name()};
+    server.run("INSERT INTO macadam.published_pending (segment, trip, occurrence)"
+               " SELECT (SELECT min(fid) FROM macadam.segment), id, 0 FROM macadam.trip");
+    const auto trip = server.rows("SELECT id, sha256 FROM macadam.trip ORDER BY id LIMIT 1").at(0);
+    write_file(folder / "forgotten.txt", forgotten_mark(trip[1].value_or("")) + "\n");
+    const auto said =
+        output_of(folder,
+                  fmt::format("psql -X '{}' -f {}/packaging/cluster/forget_listed.sql < {}",
+                              database.name(),
+                              source_folder(),
+                              (folder / "forgotten.txt").string()));
+    EXPECT_THAT(said, AllOf(HasSubstr("COMMIT"), Not(HasSubstr("ERROR"))));
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.trip"), 2);
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.published_pending"), 2);
+    fuse_all(*database.import().trips);
+    EXPECT_THAT(values_of(database.read()), Not(IsEmpty()));
 }
 
 TEST(CrowdOnAServer, UsesNoRowOfASegmentTwice) {

@@ -1,6 +1,7 @@
 // What a database does on any engine: the same sentences, tried on a GeoPackage and on PostgreSQL.
 
 #include "mapping/conflation/network_conflation.hpp"
+#include "mapping/geometry/area.hpp"
 #include "mapping/network/build_network.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/sqlite/sqlite.hpp"
@@ -13,6 +14,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,9 +22,12 @@
 namespace macadam::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Lt;
 using ::testing::Not;
 using ::testing::SizeIs;
 
@@ -71,10 +76,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Engines,
                          DatabaseOnAnyEngine,
                          ::testing::Values(Engine::geopackage, Engine::postgresql),
-                         [](const auto& engine) {
-                             return engine.param == Engine::geopackage ? "GeoPackage"
-                                                                       : "PostgreSQL";
-                         });
+                         [](const auto& engine) { return name_of(engine.param); });
 
 TEST_P(DatabaseOnAnyEngine, TakesEachTripOnce) {
     const auto store = database_.import();
@@ -115,21 +117,89 @@ TEST_P(DatabaseOnAnyEngine, FusesWhatIsNewAndThenNothing) {
     EXPECT_EQ(store.trips->alignment().drives, 2);
 }
 
+/// Adds a trip of another car over the first seven segments, and a survey of the first five.
+void add_partial_trips(ImportTarget& trips) {
+    auto car = trip_record(trip_count);
+    car.vehicle_id = "car-apart";
+    auto passes = passes_of(trip_count);
+    passes.resize(7);
+    const NewTrip by_car{&car, passes, {}, false, {}};
+    auto survey = trip_record(trip_count + 1);
+    survey.vehicle_id.clear();
+    survey.reference = ReferenceNote{.relative_sd_ppm = 20'000, .row_mm = 10'000};
+    auto measured = passes_of(trip_count + 1);
+    measured.resize(5);
+    const NewTrip by_survey{&survey, measured, {}, false, {}};
+    const std::vector<NewTrip> both{by_car, by_survey};
+    trips.add_trips(both);
+    fuse_all(trips);
+}
+
+/// A filter of each kind, those of place around one segment. \param car  a pseudonym
+std::vector<SegmentFilter> every_filter(const StoreReader& store, const std::string& car) {
+    GeoBox box;
+    SegmentFilter one;
+    one.key = SegmentKey{1, true, 3};
+    store.visit(one, [&](const SegmentRecord& record) {
+        for (const auto& [lat_deg, lon_deg] : record.segment.line) {
+            box = {std::min(box.west_deg, lon_deg),
+                   std::min(box.south_deg, lat_deg),
+                   std::max(box.east_deg, lon_deg),
+                   std::max(box.north_deg, lat_deg)};
+        }
+    });
+    std::vector<SegmentFilter> filters(18);
+    filters[0] = one;
+    filters[1].worst = 5;
+    filters[2].period = Period{.from_ms = 1'765'000'000'000, .until_ms = {}};
+    filters[3].box = box;
+    filters[4].name_part = "rue";
+    filters[5].min_passes = 7;
+    filters[6].way_id = 1;
+    filters[7].highway = "residential";
+    filters[8].class_name = "good";
+    filters[9].class_name = "fair";
+    filters[10].class_name = "poor";
+    filters[11].min_vehicles = 4;
+    filters[12].area = std::make_shared<const Area>(
+        std::vector<Polygon>{{{{box.south_deg - 1e-6, box.west_deg - 1e-6},
+                               {box.north_deg + 1e-6, box.west_deg - 1e-6},
+                               {box.north_deg + 1e-6, box.east_deg + 1e-6}}}});
+    filters[13].cars_alone = true;
+    filters[14].vehicle = car;
+    filters[15].ranges = std::vector<SegmentRange>{{1, false, 4, 6}, {1, true, 0, 2}};
+    filters[16].with_state_only = false;
+    return filters; // the last one: all with a state
+}
+
 TEST_P(DatabaseOnAnyEngine, AnswersQueriesByEveryFilter) {
     import_all();
+    add_partial_trips(*database_.import().trips);
     Oracle oracle{folder_ / "oracle.gpkg", all_trips()};
+    add_partial_trips(*import_store_of(oracle.store()).trips);
     const auto reader = database_.read();
-    SegmentFilter worst, period, box, road, often, key;
-    worst.worst = 5;
-    period.period = Period{.from_ms = 1'765'000'000'000, .until_ms = {}};
-    box.box = GeoBox{4.80, 45.75, 4.8305, 45.77};
-    road.name_part = "rue";
-    often.min_passes = 2;
-    key.key = SegmentKey{1, true, 3};
-    for (const auto& filter : {SegmentFilter{}, worst, period, box, road, often, key}) {
-        EXPECT_EQ(values_of(reader, filter), values_of(oracle.store(), filter));
+    // Each database has a key of its own.
+    const auto filters = every_filter(reader, reader.key()->pseudonym("car-apart"));
+    const auto of_oracle =
+        every_filter(oracle.store(), oracle.store().key()->pseudonym("car-apart"));
+    const auto fused = values_of(reader, filters.back());
+    ASSERT_THAT(fused, SizeIs(20));
+    std::size_t in_classes = 0;
+    for (std::size_t i = 0; i < filters.size(); ++i) {
+        const auto values = values_of(reader, filters[i]);
+        EXPECT_EQ(values, values_of(oracle.store(), of_oracle[i])) << i;
+        in_classes += filters[i].class_name.empty() ? 0 : values.size();
     }
-    EXPECT_THAT(values_of(reader, key), SizeIs(1));
+    EXPECT_EQ(in_classes, fused.size());
+    EXPECT_THAT(values_of(reader, filters[0]), SizeIs(1));                             // the key
+    EXPECT_THAT(values_of(reader, filters[3]), AllOf(Not(IsEmpty()), SizeIs(Lt(20)))); // the box
+    EXPECT_THAT(values_of(reader, filters[5]), SizeIs(7));  // of all trips
+    EXPECT_THAT(values_of(reader, filters[11]), SizeIs(7)); // four cars
+    EXPECT_THAT(values_of(reader, filters[12]), AllOf(Not(IsEmpty()), SizeIs(Lt(20)))); // the area
+    EXPECT_NE(values_of(reader, filters[13]), fused);            // without the survey
+    EXPECT_THAT(values_of(reader, filters[14]), SizeIs(7));      // the car
+    EXPECT_THAT(values_of(reader, filters[15]), SizeIs(4));      // the ranges
+    EXPECT_THAT(values_of(reader, filters[16]), SizeIs(Gt(20))); // also without a pass
     EXPECT_THAT(reader.events({}), SizeIs(oracle.store().events({}).size()));
 }
 

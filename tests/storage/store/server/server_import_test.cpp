@@ -52,48 +52,68 @@ protected:
     EngineDatabase database_{Engine::postgresql, folder_};
 };
 
-TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFile) {
-    const bool all = std::getenv("MACADAM_TEST_ALL") != nullptr; // NOLINT(concurrency-mt-unsafe)
-    const int trips = all ? 40 : 24;
-    const unsigned orders = all ? 6 : 2;
+/// Trips first .. past - 1, each twice, in an order of their own, by four workers who fuse in
+/// between. \returns how many were new.
+int deliver(const std::string& address, int first, int past, unsigned order) {
     constexpr std::size_t workers = 4;
-    const auto expected = file_digest(trips);
+    std::vector<int> deliveries;
+    for (int number = first; number < past; ++number) {
+        deliveries.insert(deliveries.end(), {number, number});
+    }
+    std::ranges::shuffle(deliveries, std::mt19937{order});
+    std::vector<std::future<int>> added;
+    for (std::size_t worker = 0; worker < workers; ++worker) {
+        added.push_back(std::async(std::launch::async, [&, worker] {
+            const auto open = open_server_import(address);
+            int fresh = 0;
+            for (std::size_t i = worker; i < deliveries.size(); i += workers) {
+                fresh += add_rich_trip(*open.trips, deliveries[i]) ? 1 : 0;
+                if (i % 3 == 0) {
+                    fuse_all(*open.trips);
+                }
+            }
+            fuse_all(*open.trips);
+            return fresh;
+        }));
+    }
+    int fresh = 0;
+    for (auto& worker : added) {
+        fresh += worker.get();
+    }
+    return fresh;
+}
+
+TEST_F(ServerImports, ByFourWorkersWhoAreGivenEachTripTwiceHaveTheDigestOfAFileInEachGeneration) {
+    const bool all = std::getenv("MACADAM_TEST_ALL") != nullptr; // NOLINT(concurrency-mt-unsafe)
+    const unsigned orders = all ? 20 : 2;
+    constexpr int generations = 3, trips = 8; // in each
+    auto file = new_store(folder_ / "file.gpkg");
+    std::vector<std::string> expected;
+    for (int generation = 0; generation < generations; ++generation) {
+        const auto open = import_store_of(file);
+        for (int number = generation * trips; number < (generation + 1) * trips; ++number) {
+            add_rich_trip(*open.trips, number);
+        }
+        fuse_all(*open.trips);
+        expected.push_back(file.digest());
+        file.maintenance.calibrate();
+    }
     for (unsigned order = 0; order < orders; ++order) {
         const auto name = "b" + std::to_string(order);
-        const auto address = order == 0 ? database_.name() : database_.server().new_database(name);
-        if (order > 0) {
-            static_cast<void>(new_store(folder_ / (name + ".gpkg")));
-            copy_to_server(folder_ / (name + ".gpkg"), address, {}, {});
+        const auto address = database_.server().new_database(name);
+        static_cast<void>(new_store(folder_ / (name + ".gpkg")));
+        copy_to_server(folder_ / (name + ".gpkg"), address, {}, {});
+        for (int generation = 0; generation < generations; ++generation) {
+            EXPECT_EQ(deliver(address, generation * trips, (generation + 1) * trips, order), trips);
+            EXPECT_EQ(ServerConnection{address}.number("SELECT count(*) FROM macadam.chunk_dirty"),
+                      0);
+            const StoreReader reader{open_server_reader(address, {}, Audience::operator_, {}, {})};
+            EXPECT_EQ(reader.digest(), expected[static_cast<std::size_t>(generation)]) << order;
+            RoadStore{open_server_replica(address, {}, {})}.maintenance.calibrate();
         }
-        std::vector<int> deliveries;
-        for (int number = 0; number < trips; ++number) {
-            deliveries.insert(deliveries.end(), {number, number});
-        }
-        std::ranges::shuffle(deliveries, std::mt19937{order});
-        std::vector<std::future<int>> added;
-        for (std::size_t worker = 0; worker < workers; ++worker) {
-            added.push_back(std::async(std::launch::async, [&, worker] {
-                const auto open = open_server_import(address);
-                int fresh = 0;
-                for (std::size_t i = worker; i < deliveries.size(); i += workers) {
-                    fresh += add_rich_trip(*open.trips, deliveries[i]) ? 1 : 0;
-                    if (i % 3 == 0) {
-                        fuse_all(*open.trips);
-                    }
-                }
-                fuse_all(*open.trips);
-                return fresh;
-            }));
-        }
-        int fresh = 0;
-        for (auto& worker : added) {
-            fresh += worker.get();
-        }
-        EXPECT_EQ(fresh, trips);
-        EXPECT_EQ(ServerConnection{address}.number("SELECT count(*) FROM macadam.chunk_dirty"), 0);
         const StoreReader reader{open_server_reader(address, {}, Audience::operator_, {}, {})};
-        EXPECT_EQ(reader.digest(), expected) << order;
-        EXPECT_EQ(reader.info().trips, static_cast<std::size_t>(trips));
+        EXPECT_EQ(reader.digest(), file.digest()) << order;
+        EXPECT_EQ(reader.info().trips, static_cast<std::size_t>(generations * trips));
         EXPECT_EQ(reader.info().vehicles.size(), 3U);
     }
 }
@@ -251,22 +271,47 @@ TEST_F(ServerImports, NeedTheKeyOfTheCars) {
                       HasSubstr("copy it there from")));
 }
 
+TEST_F(ServerImports, WriteNothingOnceWorkersHaveOtherResults) {
+    const auto old = open_server_import(database_.name(), {}, 1);
+    EXPECT_TRUE(add_rich_trip(*old.trips, 0)); // no worker has decided
+    ServerConnection workers{database_.name()};
+    const auto decide = [&](const std::string& version) {
+        workers.rows("INSERT INTO macadam.work_setting VALUES ('results_version', $1)"
+                     " ON CONFLICT (key) DO UPDATE SET value = excluded.value",
+                     {version});
+    };
+    decide("1");
+    EXPECT_TRUE(add_rich_trip(*old.trips, 1));
+    decide("2");
+    const auto refusal =
+        AllOf(HasSubstr("its workers compute results of version 2, this program those of version "
+                        "1"),
+              HasSubstr("macadam worker --take-over"));
+    EXPECT_THAT(refusal_of([&] { add_rich_trip(*old.trips, 2); }), refusal);
+    EXPECT_THAT(refusal_of([&] { fuse_all(*old.trips); }), refusal);
+    EXPECT_THAT(refusal_of([&] { open_server_import(database_.name(), {}, 1); }), refusal);
+    EXPECT_EQ(number("SELECT count(*) FROM macadam.trip"), 2);
+    const auto now = open_server_import(database_.name(), {}, 2);
+    EXPECT_TRUE(add_rich_trip(*now.trips, 2));
+    fuse_all(*now.trips);
+    EXPECT_EQ(database_.read().digest(), file_digest(3));
+}
+
 TEST_F(ServerImports, AreWrittenByTheRoleOfAnImporter) {
-    const auto boss = database_.server().address("roads");
-    ServerConnection{boss}.run(
-        "CREATE ROLE macadam_importer NOLOGIN; GRANT USAGE ON SCHEMA macadam TO macadam_importer;"
-        "GRANT SELECT ON ALL TABLES IN SCHEMA macadam TO macadam_importer;"
-        "GRANT USAGE ON ALL SEQUENCES IN SCHEMA macadam TO macadam_importer;"
-        "GRANT INSERT, UPDATE, DELETE ON macadam.vehicle, macadam.trip, macadam.row_reason,"
-        " macadam.drive, macadam.event, macadam.event_search, macadam.segment_state,"
-        " macadam.chunk_state, macadam.chunk_dirty, macadam.import_note, macadam.audit,"
-        " macadam.state_change, macadam.chunk_change TO macadam_importer;"
-        "CREATE ROLE driver LOGIN IN ROLE macadam_importer");
-    const auto open = open_server_import(database_.server().address("roads", "driver"));
+    PostgresServer server;
+    ServerConnection{server.address()}.run("CREATE ROLE macadam_importer NOLOGIN;"
+                                           "CREATE ROLE driver LOGIN IN ROLE macadam_importer");
+    const auto file = folder_ / "role.gpkg";
+    static_cast<void>(RoadStore::create(file, small_country(), settings()));
+    const auto address = server.new_database("roads");
+    copy_to_server(file, address, {}, {});
+    const auto open = open_server_import(server.address("roads", "driver"));
     open.trips->begin_import("a", 3);
     import_rich_trips(*open.trips, 3);
     open.trips->end_import("a");
-    EXPECT_EQ(database_.read().digest(), file_digest(3));
+    EXPECT_FALSE(add_rich_trip(*open.trips, 1)); // known
+    EXPECT_EQ(StoreReader{open_server_reader(address, {}, Audience::operator_, {}, {})}.digest(),
+              file_digest(3));
 }
 
 } // namespace

@@ -174,7 +174,7 @@ TEST_F(StoreCopies, ExplainEveryObjectOfTheirSchema) {
     EXPECT_EQ(
         one("SELECT string_agg(relname || '.' || attname, ' ') FROM pg_attribute JOIN pg_class"
             " ON pg_class.oid = attrelid WHERE relnamespace = 'macadam'::regnamespace AND"
-            " relkind IN ('r', 'p') AND NOT relispartition AND attnum > 0 AND"
+            " relkind IN ('r', 'p', 'v') AND NOT relispartition AND attnum > 0 AND"
             " col_description(attrelid, attnum) IS NULL"),
         "NULL");
     EXPECT_EQ(one("SELECT string_agg(proname, ' ') FROM pg_proc WHERE pronamespace ="
@@ -221,8 +221,9 @@ TEST_F(StoreCopies, RefuseWhatTheyCannotTake) {
                 HasSubstr("roads.gpkg: already exists"));
     change("INSERT INTO macadam.migration VALUES (99, 'future')");
     EXPECT_THAT(refusal_back(),
-                HasSubstr("its schema is of version 99, expected 9: it was made by "
-                          "a newer version of Macadam"));
+                HasSubstr(fmt::format("its schema is of version 99, expected {}: it was made by a "
+                                      "newer version of Macadam",
+                                      server_schema_version)));
 }
 
 TEST_F(StoreCopies, LeaveNothingBehindWhenTheyFail) {
@@ -285,10 +286,19 @@ TEST_F(StoreCopies, GiveReadersRoadsAndValuesButNoTrips) {
                     copy_from_server(server_.address("roads", "nobody_"), folder_ / "b.gpkg", {});
                 }),
                 HasSubstr("permission denied for schema macadam"));
+    EXPECT_EQ(guest.number("SELECT count(chunk) FROM macadam.chunk_dirty"), 0);
+    EXPECT_THAT(refusal_of([&] { guest.number("SELECT count(trip) FROM macadam.chunk_dirty"); }),
+                HasSubstr("permission denied"));
     ServerConnection driver{server_.address("roads", "driver")};
     driver.run("INSERT INTO macadam.vehicle (pseudonym) VALUES ('v-new')");
-    EXPECT_THAT(refusal_of([&] { driver.run("DELETE FROM macadam.forgotten"); }),
-                HasSubstr("permission denied"));
+    for (const auto* const sql : {"DELETE FROM macadam.forgotten",
+                                  "DELETE FROM macadam.trip",
+                                  "UPDATE macadam.trip SET vehicle = NULL",
+                                  "DELETE FROM macadam.event",
+                                  "UPDATE macadam.drive SET body = ''",
+                                  "UPDATE macadam.audit SET what = ''"}) {
+        EXPECT_THAT(refusal_of([&] { driver.run(sql); }), HasSubstr("permission denied")) << sql;
+    }
 }
 
 TEST_F(StoreCopies, NameWhyTheyCannotConnectAndNoPassword) {

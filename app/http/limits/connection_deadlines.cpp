@@ -1,4 +1,4 @@
-#include "app/http/connection_deadlines.hpp"
+#include "app/http/limits/connection_deadlines.hpp"
 
 #include <condition_variable>
 #include <stop_token>

@@ -1,4 +1,4 @@
-#include "app/http/worker_lane.hpp"
+#include "app/http/limits/worker_lane.hpp"
 
 #include <utility>
 
