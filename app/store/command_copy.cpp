@@ -37,7 +37,8 @@ void expect_file_and_server(const std::string& from, const std::string& to) {
         throw UsageError{is_server_address(from)
                              ? "FROM and TO are both on servers, expected one .gpkg file"
                              : "FROM and TO are both files, expected one address "
-                               "postgresql://USER@HOST/DATABASE; cp copies files"};
+                               "postgresql://USER@HOST/DATABASE; cp copies files, and "
+                               "regions are cut out of databases on servers"};
     }
 }
 

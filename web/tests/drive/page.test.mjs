@@ -136,7 +136,7 @@ describe('the recorder in the browser', () => {
       const [, id] = /# vehicle_id: (\S+)/.exec(bytes.toString());
       writeFileSync(join(cars, `${id}.toml`), readFileSync(join(folder, 'fleet/vehicles/phone-car.toml'), 'utf8').replace('"phone-car"', `"${id}"`));
       await tap(page, /^Send/);
-      await page.getByText('Received by the server and deleted here.').waitFor();
+      await page.getByText(/Received by the server and deleted here|Evaluated/).first().waitFor();
       const token = await setting(page, 'token');
       let fate;
       for (const end = Date.now() + 120_000; !fate || ['queued', 'working'].includes(fate.state);) {
