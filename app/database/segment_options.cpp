@@ -3,7 +3,6 @@
 #include "estimator/common/error.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/networks/osm_tags.hpp"
-#include "storage/postgres/server_address.hpp"
 #include "storage/store/connection/import_lock.hpp"
 #include "storage/text/spelling.hpp"
 
@@ -13,16 +12,9 @@
 #include <iterator>
 
 namespace macadam {
+
 std::filesystem::path store_file(const Arguments& arguments) {
     const auto& store = arguments.operand("STORE");
-    if (is_server_address(store)) {
-        try {
-            expect_address_without_secrets(store);
-            expect_file(store);
-        } catch (const InputError& error) {
-            throw UsageError{error.what()};
-        }
-    }
     if (store.find("://") != std::string::npos) {
         throw UsageError{fmt::format("STORE is '{}', expected a .gpkg file", store)};
     }

@@ -108,10 +108,10 @@ constexpr std::array options{
            "W,S,E,N",
            "From a server: only the region in this box, in degrees; W > E crosses the "
            "antimeridian."},
-    Option{"--area",
-           "FILE",
-           "From a server: only the region in the polygons of this file: GeoJSON, GeoPackage, "
-           "Shapefile, KML or another layer."},
+    Option{
+        "--area",
+        "FILE",
+        "From a server: only the region in these polygons: GeoJSON, GeoPackage, Shapefile, KML."},
     Option{"--json", "", "Print the result as one JSON object."}};
 
 } // namespace

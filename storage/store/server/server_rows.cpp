@@ -177,15 +177,14 @@ std::string join_segments(std::uint32_t segments_per_chunk) {
 
 std::string join_states(std::uint32_t segments_per_chunk) {
     // From chunks to states, which another server may have: one question a chunk.
-    return join_each("segment_state",
+    return fmt::format(" CROSS JOIN LATERAL (SELECT max(fid) AS fid FROM macadam.segment WHERE cell"
+                       " = wanted.cell AND fid >= wanted.chunk AND fid < wanted.chunk + {} AND"
+                       " chunk = wanted.chunk) AS last",
+                       segments_per_chunk) +
+           join_each("segment_state",
                      "state",
-                     fmt::format("state.cell = wanted.cell AND state.fid >= wanted.chunk AND"
-                                 " state.fid < wanted.chunk + {}",
-                                 segments_per_chunk)) +
-           join_each("segment",
-                     "segment",
-                     "segment.cell = state.cell AND segment.fid = state.fid AND segment.chunk ="
-                     " wanted.chunk");
+                     "state.cell = wanted.cell AND state.fid BETWEEN wanted.chunk AND last.fid") +
+           join_each("segment", "segment", "segment.cell = state.cell AND segment.fid = state.fid");
 }
 
 void expect_no_stop(const ServerConnection& server, const Progress& progress) {

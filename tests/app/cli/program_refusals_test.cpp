@@ -181,8 +181,8 @@ TEST_F(Refusals, OfALatencyThatNoReceiverHasNameItsLine) {
 
 TEST_F(Refusals, OfAServersAddressWhereOnlyAFileServesSayHowToGetOne) {
     const std::string server = "postgresql://roads/all";
-    const auto run = run_macadam({"token", "list", server});
-    EXPECT_EQ(run.exit_status, 2);
+    const auto run = run_macadam({"export", server, "-o", "roads.qgz"});
+    EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, HasSubstr("'macadam copy postgresql://roads/all roads.gpkg' makes one"));
     EXPECT_THAT(run_macadam({"info", "mysql://roads/all"}).err, HasSubstr("expected a .gpkg file"));
 }

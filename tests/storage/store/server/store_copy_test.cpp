@@ -286,7 +286,7 @@ TEST_F(StoreCopies, GiveReadersRoadsAndValuesButNoTrips) {
                     copy_from_server(server_.address("roads", "nobody_"), folder_ / "b.gpkg", {});
                 }),
                 HasSubstr("permission denied for schema macadam"));
-    EXPECT_EQ(guest.number("SELECT count(chunk) FROM macadam.chunk_dirty"), 0);
+    EXPECT_GT(guest.number("SELECT count(chunk) FROM macadam.chunk_dirty"), 0);
     EXPECT_THAT(refusal_of([&] { guest.number("SELECT count(trip) FROM macadam.chunk_dirty"); }),
                 HasSubstr("permission denied"));
     ServerConnection driver{server_.address("roads", "driver")};
