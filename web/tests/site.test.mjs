@@ -394,13 +394,14 @@ describe('the page', { timeout: 1000_000 }, () => {
     const tiles = 2 ** zoom;
     const column = Math.floor(tiles * ((west + east) / 2 + 180) / 360);
     const row = Math.floor(tiles * (1 - Math.asinh(Math.tan((south + north) / 2 * Math.PI / 180)) / Math.PI) / 2);
-    // Two zooms further a tile is 2,048 pixels wide. 800 lie to the left: more than half of the view, less than half of what is drawn.
-    const lon = (column + 800 / 2048) / tiles * 360 - 180;
+    assert.ok(tiles * (east + 180) / 360 > column + 1, 'the town goes on to the east');
+    // Two zooms further a tile is 2,048 pixels wide. 600 lie to the right: more than half of the view of 960, less than half of the 1,536 that are drawn.
+    const lon = (column + 1 - 600 / 2048) / tiles * 360 - 180;
     const lat = Math.atan(Math.sinh(Math.PI * (1 - 2 * (row + 0.5) / tiles))) * 180 / Math.PI;
     const { page, text, close } = await town.page(`#map=${zoom + 2}/${lat}/${lon}&mode=change`);
     const asked = () => page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => /months\/\d+\/\d+\/\d+/.exec(name)?.[0]).filter(Boolean));
-    await page.waitForFunction((sought) => performance.getEntriesByType('resource').some(({ name }) => name.includes(sought)), `months/${zoom}/${column - 1}/`);
-    assert.deepEqual([...new Set(await asked())].sort(), [column - 1, column].map((each) => `months/${zoom}/${each}/${row}`));
+    await page.waitForFunction((sought) => performance.getEntriesByType('resource').some(({ name }) => name.includes(sought)), `months/${zoom}/${column + 1}/`);
+    assert.deepEqual([...new Set(await asked())].sort(), [column, column + 1].map((each) => `months/${zoom}/${each}/${row}`));
     await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
     const told = /In view: (\d+) segments smoother, (\d+) rougher, (\d+) without/.exec(await text('.panel')).slice(1);
     const inView = Object.values(JSON.parse(readFileSync(join(town.folder, `site/months/${zoom}/${column}/${row}.json`), 'utf8')))

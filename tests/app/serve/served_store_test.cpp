@@ -78,6 +78,7 @@ TEST(ServedStore, KeepsItsReadersWhileTripsAreImported) {
     const auto file = new_file();
     ServedStore served{file, Audience::anyone, workers, {}};
     const auto held = served.reader(0).hold();
+    ASSERT_EQ(served.reader(0).info().trips, 3U);
     auto store = RoadStore::open(file);
     import_trips(store, 3);
     ASSERT_TRUE(served.look());
