@@ -74,17 +74,6 @@ TEST(ServedStore, ReadsTheRoadsOfAMapThatWasUpdated) {
     }
 }
 
-TEST(ServedStore, KeepsItsReadersWhileTripsAreImported) {
-    const auto file = new_file();
-    ServedStore served{file, Audience::anyone, workers, {}};
-    const auto held = served.reader(0).hold();
-    ASSERT_EQ(served.reader(0).info().trips, 3U);
-    auto store = RoadStore::open(file);
-    import_trips(store, 3);
-    ASSERT_TRUE(served.look());
-    EXPECT_EQ(served.reader(0).info().trips, 3U); // as held
-}
-
 TEST(ServedStore, TakesDownWhatACrowdHasNotPublished) {
     const ServedWorld served{{.port = 0, .workers = 1}}; // whose reader has shown all
     auto store = RoadStore::open(served.file);
