@@ -1,9 +1,9 @@
 // The recorder's page: what it shows first.
-import { takeInvitation } from './invitation.js';
+import { takeInvitation } from './sending/invitation.js';
 import { show, speak } from './page.js';
 import { holdRecording } from './recording_lock.js';
-import { Sender } from './sender.js';
-import { ServerTrips } from './server_trips.js';
+import { Sender } from './sending/sender.js';
+import { ServerTrips } from './sending/server_trips.js';
 import { TripStore } from './trip_store.js';
 import { carView } from './views/car.js';
 import { foundView } from './views/found.js';

@@ -1,9 +1,9 @@
-import { compressed } from './log_file.js';
+import { compressed } from './sending/log_file.js';
 import { joined } from './recording.js';
 import { fixColumn, fixWidth, motionWidth } from './samples.js';
 import { drawCount } from './trimming.js';
 import { tripLog } from './trip_log.js';
-import { deleteAtServer, maxUpload_bytes, sendTrip, sha256Hex } from './upload.js';
+import { deleteAtServer, maxUpload_bytes, sendTrip, sha256Hex } from './sending/upload.js';
 
 // States of a trip: recording, ended (the log is on the phone), too_short, queued (to be sent), withdrawn (deleted here
 // after a try to send it, not yet at the server), received, deleting (at the server), gone (deleted there).

@@ -9,11 +9,11 @@ import { placeOf } from '../../src/drive/places.js';
 import { QualityWatch } from '../../src/drive/quality.js';
 import { Recording, joined } from '../../src/drive/recording.js';
 import { motionRow, rowsOf, upBy } from '../../src/drive/samples.js';
-import { mergedTrips } from '../../src/drive/server_trips.js';
+import { mergedTrips } from '../../src/drive/sending/server_trips.js';
 import { fixTimes_ms, keptTimes } from '../../src/drive/trimming.js';
 import { tripLog } from '../../src/drive/trip_log.js';
 import { isTooLarge, sendQueued } from '../../src/drive/trips.js';
-import { deleteAtServer, listAtServer, maxUpload_bytes, sendTrip } from '../../src/drive/upload.js';
+import { deleteAtServer, listAtServer, maxUpload_bytes, sendTrip } from '../../src/drive/sending/upload.js';
 import { catalogues, wordsOf } from '../../src/drive/words.js';
 
 const lat_m = 111195; // metres per degree on the sphere, to 1e-5

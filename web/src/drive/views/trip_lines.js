@@ -1,6 +1,6 @@
 // A trip in the list, and what the driver can do with it.
 import { element } from '../dom.js';
-import { plain } from '../log_file.js';
+import { plain } from '../sending/log_file.js';
 import { button, dateOf, number, say, words } from '../page.js';
 import { deleteHere, fileName, isTooLarge } from '../trips.js';
 

@@ -1,6 +1,6 @@
 import { element } from '../dom.js';
 import { dateOf, words } from '../page.js';
-import { mergedTrips } from '../server_trips.js';
+import { mergedTrips } from '../sending/server_trips.js';
 import { tripLines } from './trip_lines.js';
 
 // Whether the fates are old ones, and why.

@@ -1,6 +1,6 @@
 import { acceptWaitingInvitation } from './invitation.js';
-import { say, words } from './page.js';
-import { sendQueued } from './trips.js';
+import { say, words } from '../page.js';
+import { sendQueued } from '../trips.js';
 
 const pauseToAccept_s = 30;
 

@@ -1,4 +1,4 @@
-import { say, words } from './page.js';
+import { say, words } from '../page.js';
 import { acceptInvitation, listAtServer } from './upload.js';
 
 // Takes an invitation (…/drive/#invite=TEXT), which never reaches a server as part of an address. A token that works stays,
