@@ -1,24 +1,33 @@
 #include "app/serve/ogc/segment_selections.hpp"
 
+#include "app/serve/live/file_number.hpp"
+#include "estimator/common/error.hpp"
 #include "storage/exports/export.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace macadam {
 namespace {
 
-std::vector<SegmentKey> found_keys(const StoreReader& store, const ItemsQuery& query) {
+/// \param ranges  among which to look
+std::vector<SegmentKey> found_keys(const StoreReader& store,
+                                   const ItemsQuery& query,
+                                   const std::optional<std::vector<SegmentRange>>& ranges) {
     std::vector<SegmentKey> keys;
     TimeLimit limit;
+    auto filter = filter_of(query);
+    filter.ranges = ranges;
     if (query.tests.empty()) {
-        store.visit_summaries(filter_of(query), [&](const SegmentSummary& segment) {
+        store.visit_summaries(filter, [&](const SegmentSummary& segment) {
             limit.check();
             keys.push_back(segment.key);
         });
         return keys;
     }
     const auto& classes = *class_table(store.settings().class_table);
-    store.visit(filter_of(query), [&](const SegmentRecord& record) {
+    store.visit(filter, [&](const SegmentRecord& record) {
         limit.check();
         const ClassedSegment row{record, classes};
         const Feature feature{.id = {}, .line = record.segment.line, .row = &row};
@@ -27,6 +36,37 @@ std::vector<SegmentKey> found_keys(const StoreReader& store, const ItemsQuery& q
         }
     });
     return keys;
+}
+
+/// Puts keys that were found in some ranges into the place of those that lie there.
+std::vector<SegmentKey> with_ranges_replaced(std::span<const SegmentKey> keys,
+                                             std::span<const SegmentRange> ranges,
+                                             std::span<const SegmentKey> found) {
+    std::vector<SegmentKey> all;
+    all.reserve(keys.size() + found.size());
+    auto left = keys.begin();
+    auto next = found.begin();
+    for (const auto& [way_id, forward, first, past] : ranges) {
+        const SegmentKey past_it{way_id, forward, past};
+        const auto begin =
+            std::ranges::lower_bound(left, keys.end(), SegmentKey{way_id, forward, first});
+        all.insert(all.end(), left, begin);
+        left = std::ranges::lower_bound(begin, keys.end(), past_it);
+        const auto end = std::ranges::lower_bound(next, found.end(), past_it);
+        all.insert(all.end(), next, end);
+        next = end;
+    }
+    all.insert(all.end(), left, keys.end());
+    return all;
+}
+
+bool is_in_place(const StoreReader& store) {
+    try {
+        store.expect_in_place();
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 } // namespace
@@ -41,25 +81,68 @@ void TimeLimit::check() {
 SelectedKeys SegmentSelections::keys(const StoreReader& store,
                                      const std::string& version,
                                      const ItemsQuery& query) {
-    const auto name = version + query.selection;
-    {
-        const std::lock_guard lock{mutex_};
-        const auto found = std::ranges::find(recent_, name, &Selection::name);
-        if (found != recent_.end()) {
-            recent_.splice(recent_.begin(), recent_, found);
-            return found->keys;
-        }
+    const auto known = latest(query.selection);
+    if (known.keys && known.version == version) {
+        return known.keys;
     }
-    auto keys = std::make_shared<const std::vector<SegmentKey>>(found_keys(store, query));
+    auto selection = select(store, query, known);
+    selection.version = version;
+    auto keys = selection.keys;
+    keep(std::move(selection));
+    return keys;
+}
+
+/// Selects from what has changed since an earlier selection of the same text, or from all.
+SegmentSelections::Selection SegmentSelections::select(const StoreReader& store,
+                                                       const ItemsQuery& query,
+                                                       const Selection& earlier) {
+    const auto one_moment = store.hold();
+    Selection now{.text = query.selection,
+                  .version = {},
+                  .moment = store.moment(),
+                  .file = file_number(store.file())};
+    auto changed = earlier.keys && earlier.file != 0 && earlier.file == now.file
+                       ? store.changed_since(earlier.moment)
+                       : std::nullopt;
+    if (changed) {
+        std::ranges::sort(*changed, {}, [](const SegmentRange& range) {
+            return SegmentKey{range.way_id, range.forward, range.first};
+        });
+    }
+    auto keys = found_keys(store, query, changed);
+    now.keys = std::make_shared<const std::vector<SegmentKey>>(
+        changed ? with_ranges_replaced(*earlier.keys, *changed, keys) : std::move(keys));
+    if (!is_in_place(store)) {
+        now.file = 0;
+    }
+    return now;
+}
+
+/// The selection of a text, whatever its version; an empty one if there is none.
+SegmentSelections::Selection SegmentSelections::latest(const std::string& text) {
     const std::lock_guard lock{mutex_};
-    recent_.push_front({name, keys});
-    count_ += keys->size();
+    const auto found = std::ranges::find(recent_, text, &Selection::text);
+    if (found == recent_.end()) {
+        return {};
+    }
+    recent_.splice(recent_.begin(), recent_, found);
+    return *found;
+}
+
+void SegmentSelections::keep(Selection selection) {
+    const std::lock_guard lock{mutex_};
+    const auto before = std::ranges::find(recent_, selection.text, &Selection::text);
+    if (before != recent_.end()) {
+        count_ -= before->keys->size();
+        recent_.erase(before);
+    }
+    count_ += selection.keys->size();
+    recent_.push_front(std::move(selection));
     constexpr std::size_t max_selections = 256;
     while ((count_ > max_keys || recent_.size() > max_selections) && recent_.size() > 1) {
         count_ -= recent_.back().keys->size();
         recent_.pop_back();
     }
-    return keys;
 }
 
 SegmentFilter filter_of(const ItemsQuery& query) {

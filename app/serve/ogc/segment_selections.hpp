@@ -3,9 +3,11 @@
 #include "app/serve/ogc/items_query.hpp"
 #include "mapping/network/segment.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "storage/store/records/store_moment.hpp"
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -37,7 +39,8 @@ private:
 using SelectedKeys = std::shared_ptr<const std::vector<SegmentKey>>;
 
 /// Keys of recent selections. A page is a range of them, so that counts are exact, `next` neither
-/// repeats nor misses a segment, and a deep offset costs no more than the first.
+/// repeats nor misses a segment, and a deep offset costs no more than the first. Those of a new
+/// version are found among what has changed.
 class SegmentSelections {
 public:
     /// Returns the keys of a selection of one version of the database.
@@ -49,11 +52,20 @@ public:
 
 private:
     struct Selection {
-        std::string name; ///< version and selection
-        SelectedKeys keys;
+        std::string text; ///< of its query
+        std::string version;
+        StoreMoment moment{};
+        std::uint64_t file = 0; ///< that the moment is of; 0 = it was replaced meanwhile
+        SelectedKeys keys{};    ///< null: there is none so far
     };
+
+    static Selection
+    select(const StoreReader& store, const ItemsQuery& query, const Selection& earlier);
+    Selection latest(const std::string& text);
+    void keep(Selection selection);
+
     std::mutex mutex_;
-    std::list<Selection> recent_; ///< latest first
+    std::list<Selection> recent_; ///< latest first, each text once
     std::size_t count_ = 0;       ///< of keys
 };
 
