@@ -290,11 +290,14 @@ void serve_database(const std::filesystem::path& file,
     HttpServer server{config, std::move(handlers)};
     running = &server;
     started(server.port());
+    const auto prepare = [&](const StoreReader& reader, const std::string& version) {
+        pages.features.prepare(reader, version);
+    };
     std::string trouble;
     while (!console.stop().stop_requested()) {
         wait_for_stop(console.stop());
         try {
-            if (store.look()) {
+            if (store.look(prepare)) {
                 console.detail("the database has changed");
                 follow();
             }

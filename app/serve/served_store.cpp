@@ -71,7 +71,7 @@ std::string ServedStore::trips_version() const {
     return versions_.trips;
 }
 
-bool ServedStore::look() {
+bool ServedStore::look(const Prepare& prepare) {
     if (const auto inode = file_number(file_); inode == 0) {
         throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
     } else if (!watch_ || watch_->inode != inode) {
@@ -92,11 +92,15 @@ bool ServedStore::look() {
     if (std::exchange(watch_->maintenance, maintenance) != maintenance) {
         ++epoch_;
     }
-    const bool shows_published_alone = open(audience_).shows_published_alone();
+    const auto reader = open(audience_);
+    const bool shows_published_alone = reader.shows_published_alone();
     if (std::exchange(shows_published_alone_, shows_published_alone) != shows_published_alone) {
         ++epoch_;
     }
     auto versions = versions_now();
+    if (prepare) {
+        prepare(reader, versions.content);
+    }
     watch_->data_version = data_version; // not before, as the above may throw
     const std::lock_guard lock{mutex_};
     std::swap(versions_, versions);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,9 +38,12 @@ public:
     /// Text that changes with the trips, published or not.
     std::string trips_version() const;
 
+    /// Called with what anyone may read, and its version, before requests see that version.
+    using Prepare = std::function<void(const StoreReader& reader, const std::string& version)>;
+
     /// Looks for changes, which commits of other programs make; called every second by one thread.
     /// \returns true if the version has changed.
-    bool look();
+    bool look(const Prepare& prepare = {});
 
     /// Tells whether only publications may be shown, as of the last look; for the thread that
     /// looks.

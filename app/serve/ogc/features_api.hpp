@@ -33,6 +33,12 @@ public:
     HttpResponse items(const ApiContext& context, std::string_view id);
     HttpResponse item(const ApiContext& context, std::string_view id, const std::string& feature);
 
+    /// Makes ready what was asked of the version before; for a thread of its own.
+    /// \throws InputError
+    void prepare(const StoreReader& store, const std::string& version) {
+        selections_.prepare(store, version);
+    }
+
     /// Collections that a request may see.
     std::vector<const Collection*> collections_for(bool is_operator) const;
 

@@ -5,6 +5,7 @@
 #include "storage/exports/export.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -14,9 +15,9 @@ namespace {
 /// \param ranges  among which to look
 std::vector<SegmentKey> found_keys(const StoreReader& store,
                                    const ItemsQuery& query,
-                                   const std::optional<std::vector<SegmentRange>>& ranges) {
+                                   const std::optional<std::vector<SegmentRange>>& ranges,
+                                   TimeLimit& limit) {
     std::vector<SegmentKey> keys;
-    TimeLimit limit;
     auto filter = filter_of(query);
     filter.ranges = ranges;
     if (query.tests.empty()) {
@@ -60,6 +61,11 @@ std::vector<SegmentKey> with_ranges_replaced(std::span<const SegmentKey> keys,
     return all;
 }
 
+/// Text of the query of a selection.
+constexpr auto text_of = [](const auto& selection) -> const std::string& {
+    return selection.query.selection;
+};
+
 bool is_in_place(const StoreReader& store) {
     try {
         store.expect_in_place();
@@ -85,31 +91,54 @@ SelectedKeys SegmentSelections::keys(const StoreReader& store,
     if (known.keys && known.version == version) {
         return known.keys;
     }
-    auto selection = select(store, query, known);
-    selection.version = version;
+    TimeLimit limit;
+    auto selection = select(store, version, query, known, limit);
     auto keys = selection.keys;
     keep(std::move(selection));
     return keys;
 }
 
+void SegmentSelections::prepare(const StoreReader& store, const std::string& version) {
+    TimeLimit limit{std::chrono::milliseconds{300}}; // of all: the version waits
+    try {
+        for (const auto& earlier : asked()) {
+            if (changed_since(store, earlier)) {
+                auto selection = select(store, version, earlier.query, earlier, limit);
+                selection.is_asked = false;
+                keep(std::move(selection));
+            }
+        }
+    } catch (const SelectionTooLong&) { // whoever asks for the others waits for them
+        return;
+    }
+}
+
+/// What has changed since an earlier selection; `std::nullopt` if that may be all.
+std::optional<std::vector<SegmentRange>>
+SegmentSelections::changed_since(const StoreReader& store, const Selection& earlier) {
+    return earlier.keys && earlier.file != 0 && earlier.file == file_number(store.file())
+               ? store.changed_since(earlier.moment)
+               : std::nullopt;
+}
+
 /// Selects from what has changed since an earlier selection of the same text, or from all.
 SegmentSelections::Selection SegmentSelections::select(const StoreReader& store,
+                                                       const std::string& version,
                                                        const ItemsQuery& query,
-                                                       const Selection& earlier) {
+                                                       const Selection& earlier,
+                                                       TimeLimit& limit) {
     const auto one_moment = store.hold();
-    Selection now{.text = query.selection,
-                  .version = {},
+    Selection now{.query = query,
+                  .version = version,
                   .moment = store.moment(),
                   .file = file_number(store.file())};
-    auto changed = earlier.keys && earlier.file != 0 && earlier.file == now.file
-                       ? store.changed_since(earlier.moment)
-                       : std::nullopt;
+    auto changed = changed_since(store, earlier);
     if (changed) {
         std::ranges::sort(*changed, {}, [](const SegmentRange& range) {
             return SegmentKey{range.way_id, range.forward, range.first};
         });
     }
-    auto keys = found_keys(store, query, changed);
+    auto keys = found_keys(store, query, changed, limit);
     now.keys = std::make_shared<const std::vector<SegmentKey>>(
         changed ? with_ranges_replaced(*earlier.keys, *changed, keys) : std::move(keys));
     if (!is_in_place(store)) {
@@ -121,17 +150,26 @@ SegmentSelections::Selection SegmentSelections::select(const StoreReader& store,
 /// The selection of a text, whatever its version; an empty one if there is none.
 SegmentSelections::Selection SegmentSelections::latest(const std::string& text) {
     const std::lock_guard lock{mutex_};
-    const auto found = std::ranges::find(recent_, text, &Selection::text);
+    const auto found = std::ranges::find(recent_, text, text_of);
     if (found == recent_.end()) {
         return {};
     }
+    found->is_asked = true;
     recent_.splice(recent_.begin(), recent_, found);
     return *found;
 }
 
+/// Selections that somebody has asked for in their version, latest first.
+std::vector<SegmentSelections::Selection> SegmentSelections::asked() {
+    const std::lock_guard lock{mutex_};
+    std::vector<Selection> selections;
+    std::ranges::copy_if(recent_, std::back_inserter(selections), &Selection::is_asked);
+    return selections;
+}
+
 void SegmentSelections::keep(Selection selection) {
     const std::lock_guard lock{mutex_};
-    const auto before = std::ranges::find(recent_, selection.text, &Selection::text);
+    const auto before = std::ranges::find(recent_, text_of(selection), text_of);
     if (before != recent_.end()) {
         count_ -= before->keys->size();
         recent_.erase(before);

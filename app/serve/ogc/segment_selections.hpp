@@ -11,6 +11,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,20 +49,32 @@ public:
     SelectedKeys
     keys(const StoreReader& store, const std::string& version, const ItemsQuery& query);
 
+    /// Finds the keys of a new version, before anyone asks for it, for what was asked of the one
+    /// before: a few selections that an update reaches.
+    /// \throws InputError
+    void prepare(const StoreReader& store, const std::string& version);
+
     static constexpr std::size_t max_keys = 4'000'000; ///< of all selections, 24 bytes each
 
 private:
     struct Selection {
-        std::string text; ///< of its query
+        ItemsQuery query;
         std::string version;
         StoreMoment moment{};
         std::uint64_t file = 0; ///< that the moment is of; 0 = it was replaced meanwhile
         SelectedKeys keys{};    ///< null: there is none so far
+        bool is_asked = true;   ///< for this version
     };
 
-    static Selection
-    select(const StoreReader& store, const ItemsQuery& query, const Selection& earlier);
+    static std::optional<std::vector<SegmentRange>> changed_since(const StoreReader& store,
+                                                                  const Selection& earlier);
+    static Selection select(const StoreReader& store,
+                            const std::string& version,
+                            const ItemsQuery& query,
+                            const Selection& earlier,
+                            TimeLimit& limit);
     Selection latest(const std::string& text);
+    std::vector<Selection> asked();
     void keep(Selection selection);
 
     std::mutex mutex_;

@@ -138,6 +138,32 @@ TEST(SegmentSelections, LookOnlyAtWhatHasChanged) {
     EXPECT_LT(looked_at, of_all / 4);
 }
 
+TEST(SegmentSelections, AreReadyForAVersionIfTheyWereAskedOfTheOneBefore) {
+    DrivenTown town{test_folder() / "roads.gpkg"};
+    std::size_t looked_at = 0;
+    auto query = query_of({});
+    query.tests.emplace_back([&](const Feature& /*feature*/) {
+        ++looked_at;
+        return true;
+    });
+    SegmentSelections selections;
+    selections.keys(town.store, "a", query);
+    town.drive_somewhere();
+    looked_at = 0;
+    selections.prepare(town.store, "b");
+    EXPECT_GE(looked_at, segments_a_trip);
+    looked_at = 0;
+    const auto ready = selections.keys(town.store, "b", query);
+    EXPECT_EQ(looked_at, 0U);
+    EXPECT_EQ(*ready, *SegmentSelections{}.keys(town.store, "b", query_of({})));
+    town.drive_somewhere();
+    selections.prepare(town.store, "c"); // asked of "b", but nobody asks of "c"
+    town.drive_somewhere();
+    looked_at = 0;
+    selections.prepare(town.store, "d");
+    EXPECT_EQ(looked_at, 0U);
+}
+
 TEST(SegmentSelections, AreAllOfAFileThatTookThePlaceOfAnother) {
     const auto folder = test_folder();
     TwoWays both;
