@@ -62,7 +62,7 @@ std::vector<SegmentKey> with_ranges_replaced(std::span<const SegmentKey> keys,
 }
 
 /// Text of the query of a selection.
-constexpr auto text_of = [](const auto& selection) -> const std::string& {
+constexpr auto selection_text = [](const auto& selection) -> const std::string& {
     return selection.query.selection;
 };
 
@@ -150,7 +150,7 @@ SegmentSelections::Selection SegmentSelections::select(const StoreReader& store,
 /// The selection of a text, whatever its version; an empty one if there is none.
 SegmentSelections::Selection SegmentSelections::latest(const std::string& text) {
     const std::lock_guard lock{mutex_};
-    const auto found = std::ranges::find(recent_, text, text_of);
+    const auto found = std::ranges::find(recent_, text, selection_text);
     if (found == recent_.end()) {
         return {};
     }
@@ -169,7 +169,7 @@ std::vector<SegmentSelections::Selection> SegmentSelections::asked() {
 
 void SegmentSelections::keep(Selection selection) {
     const std::lock_guard lock{mutex_};
-    const auto before = std::ranges::find(recent_, text_of(selection), text_of);
+    const auto before = std::ranges::find(recent_, selection_text(selection), selection_text);
     if (before != recent_.end()) {
         count_ -= before->keys->size();
         recent_.erase(before);
