@@ -50,6 +50,7 @@ def new_version_s(server, macadam, store, fleet, trip):
 
 def reads_during_import(server, load, paths, folder, macadam, store, fleet, trips):
     """The 99th percentile of reads, ms: alone, beside a process that computes as an import does, and while an import runs."""
+    server.get(paths[0])  # what is found once for a path
     alone = load(server.port, paths, folder, connections=1)[1]
     busy = subprocess.Popen(["python3", "-c", "while True: pass"])
     beside_busy = load(server.port, paths, folder, connections=1)[1]
