@@ -149,19 +149,45 @@ ServerFusion::ServerFusion(ServerConnection& server,
                            ImageRows& rows,
                            std::function<void()> expect_same)
     : server_{&server}, image_{&image}, rows_{&rows},
-      expect_same_{std::move(expect_same)}, scratch_{server, image, rows} {}
+      expect_same_{std::move(expect_same)}, scratch_{server, image, rows}, marked_{server} {}
 
 std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& record) {
-    const auto waiting = server_->numbers("SELECT chunk FROM macadam.chunk_dirty GROUP BY chunk"
-                                          " ORDER BY min(since_ms), chunk");
     std::vector<std::int64_t> segments;
+    std::size_t done = 0;
+    marked_.begin_round();
+    while (!progress.stop.stop_requested()) {
+        const auto waiting = marked_.next();
+        if (waiting.empty()) {
+            break;
+        }
+        fuse_each(
+            waiting,
+            {.report = [&](std::size_t part, std::size_t of) { progress(done + part, done + of); },
+             .stop = progress.stop},
+            record.audit,
+            segments);
+        if (!progress.stop.stop_requested()) {
+            marked_.advance();
+            done += waiting.size();
+        }
+    }
+    std::ranges::sort(segments);
+    std::vector<std::int64_t> all;
+    std::ranges::set_union(record.segments, segments, std::back_inserter(all));
+    record.segments = std::move(all);
+    return segments.size();
+}
+
+void ServerFusion::fuse_each(std::span<const std::int64_t> waiting,
+                             const Progress& progress,
+                             std::optional<std::int64_t>& audit,
+                             std::vector<std::int64_t>& segments) {
     // Chunks that others fuse just now are left to the end, and then waited for one by one: who
     // holds several locks never waits for another one.
     std::vector<std::int64_t> left;
     for (std::size_t done = 0; done < waiting.size() && !progress.stop.stop_requested();) {
-        const auto batch =
-            std::span{waiting}.subspan(done, std::min(chunks_in_batch, waiting.size() - done));
-        const auto fused = fuse(batch, false, record.audit, segments);
+        const auto batch = waiting.subspan(done, std::min(chunks_in_batch, waiting.size() - done));
+        const auto fused = fuse(batch, false, audit, segments);
         std::ranges::copy_if(batch, std::back_inserter(left), [&](std::int64_t chunk) {
             return !std::ranges::binary_search(fused, chunk);
         });
@@ -169,14 +195,9 @@ std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& re
         progress(done - left.size(), waiting.size());
     }
     for (std::size_t i = 0; i < left.size() && !progress.stop.stop_requested(); ++i) {
-        fuse(std::span{left}.subspan(i, 1), true, record.audit, segments);
+        fuse(std::span{left}.subspan(i, 1), true, audit, segments);
         progress(waiting.size() - left.size() + i + 1, waiting.size());
     }
-    std::ranges::sort(segments);
-    std::vector<std::int64_t> all;
-    std::ranges::set_union(record.segments, segments, std::back_inserter(all));
-    record.segments = std::move(all);
-    return segments.size();
 }
 
 std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunks, bool waits) {

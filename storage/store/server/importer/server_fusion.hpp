@@ -4,6 +4,7 @@
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/records/fusion_record.hpp"
 #include "storage/store/server/importer/fusion_scratch.hpp"
+#include "storage/store/server/importer/marked_chunks.hpp"
 #include "storage/store/server/importer/network_image.hpp"
 
 #include <cstddef>
@@ -31,8 +32,8 @@ public:
                  ImageRows& rows,
                  std::function<void()> expect_same);
 
-    /// Fuses the chunks that are marked now, oldest first, until all are done or a stop is
-    /// requested.
+    /// Fuses the marked chunks, each once, until all are done or a stop is requested: the next call
+    /// then goes on with the others.
     ///
     /// \param record  of the earlier fusions of the same import; this one is added
     /// \returns the number of segments fused.
@@ -40,6 +41,12 @@ public:
 
 private:
     struct Batch;
+
+    /// \param audit, segments  as of fuse()
+    void fuse_each(std::span<const std::int64_t> waiting,
+                   const Progress& progress,
+                   std::optional<std::int64_t>& audit,
+                   std::vector<std::int64_t>& segments);
 
     /// \param waits  for others that fuse these chunks; otherwise they are left to them.
     /// \param audit  entry of the import
@@ -60,6 +67,7 @@ private:
     ImageRows* rows_;
     std::function<void()> expect_same_;
     FusionScratch scratch_;
+    MarkedChunks marked_;
 };
 
 } // namespace macadam
