@@ -237,9 +237,11 @@ void serve_database(const std::filesystem::path& file,
     UploadWorkers workers{{.store = file, .arguments = upload_arguments(reception.import_words)},
                           reception.server.empty() ? reception.workers : 0,
                           console};
-    TripsApi trips{upload_place(file, reception),
-                   {.base = address.base, .staff_header = reception.staff_header},
-                   [&] { workers.wake(); }};
+    TripsApi trips{
+        upload_place(file, reception),
+        {.base = address.base, .staff_header = reception.staff_header},
+        [&] { workers.wake(); },
+        [&](const std::string& why) { console.warn(fmt::format("a request failed: {}", why)); }};
     const auto follow = [&] {
         live.refresh(store.version(), store.shows_published_alone());
         trips.set_crowd(store.shows_published_alone());

@@ -104,9 +104,10 @@ HttpResponse json_response(int status, const std::string& text) {
 
 TripsApi::TripsApi(std::unique_ptr<UploadPlace> place,
                    TripsApiConfig config,
-                   std::function<void()> queued)
+                   std::function<void()> queued,
+                   std::function<void(const std::string& why)> failed)
     : place_{std::move(place)}, config_{std::move(config)}, queued_{std::move(queued)},
-      events_{place_.get()}, by_owner_{config_.per_s, config_.burst},
+      failed_{std::move(failed)}, events_{place_.get()}, by_owner_{config_.per_s, config_.burst},
       by_address_{config_.per_address_s, config_.burst_of_address},
       failures_{config_.failures_s, config_.burst_of_failures} {}
 
@@ -273,9 +274,14 @@ HttpResponse TripsApi::answer(const HttpRequest& request) {
                       : sha256.empty()        ? list(*uploads, *token)
                                               : one(*uploads, request, sha256, *token),
                       route);
-    } catch (const InputError&) {
+    } catch (const InputError& error) { // the database or the object store is away
         connection.reset();
-        throw;
+        failed_(error.what());
+        return routed(later(503,
+                            reads ? "uploads cannot be read now, try again later"
+                                  : "this cannot be stored now, send it again later",
+                            std::chrono::minutes{1}),
+                      route);
     }
 }
 

@@ -40,9 +40,12 @@ class TripsApi {
 public:
     /// \param place   null: the database has none, and takes no trips
     /// \param queued  called when there is something for a worker
+    /// \param failed  called with the reason, for the operator, when an admitted request cannot be
+    ///                answered now
     TripsApi(std::unique_ptr<UploadPlace> place,
              TripsApiConfig config,
-             std::function<void()> queued);
+             std::function<void()> queued,
+             std::function<void(const std::string& why)> failed);
 
     static bool has_path(std::string_view path) { return path.starts_with("/v1/"); }
 
@@ -61,7 +64,7 @@ public:
     /// Tests whether a request has the token of an operator. Thread-safe.
     bool is_of_operator(const HttpRequest& request);
 
-    /// Answers an admitted request. Thread-safe.
+    /// Answers an admitted request; with 503 while what it needs is away. Thread-safe.
     HttpResponse answer(const HttpRequest& request);
 
     /// Tells whether the database is a crowd's; others take trips of operators alone.
@@ -90,6 +93,7 @@ private:
     std::unique_ptr<UploadPlace> place_;
     TripsApiConfig config_;
     std::function<void()> queued_;
+    std::function<void(const std::string& why)> failed_;
     std::atomic<bool> is_crowd_ = false;
     UploadEvents events_;
     std::unique_ptr<UploadStore> of_network_; ///< of the thread of the network, which must not wait

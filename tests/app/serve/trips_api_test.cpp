@@ -40,6 +40,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string sha256_of(std::string_view bytes) {
     Sha256 hash;
@@ -346,6 +347,23 @@ TEST(TripsApi, AnswersWhileAnUploadWaitsForTheDisk) {
     EXPECT_EQ(waiting.get().status, 202);
 }
 
+TEST(TripsApi, AsksToComeAgainWhileUploadsCannotBeRead) {
+    TakingWorld world;
+    ASSERT_EQ(world.put("a log", world.anna).status, 202);
+    const auto target = "/v1/trips/" + sha256_of("a log");
+    world.uploads.run("ALTER TABLE upload RENAME TO gone");
+    for (const auto& [method, its_target] :
+         {std::pair{"GET", std::string{"/v1/trips"}}, {"GET", target}, {"DELETE", target}}) {
+        const auto answer = world.ask(method, its_target, world.anna);
+        EXPECT_EQ(answer.status, 503) << method << its_target;
+        EXPECT_EQ(answer.headers.at("retry-after"), "60");
+        EXPECT_THAT(answer.body, HasSubstr("again later"));
+        EXPECT_THAT(answer.body, Not(HasSubstr("uploads.db"))); // for its operator alone
+    }
+    world.uploads.run("ALTER TABLE gone RENAME TO upload");
+    EXPECT_EQ(world.ask("GET", target, world.anna).status, 200);
+}
+
 /// Client that waits for the events of an upload.
 HttpClient& follow(HttpClient& client, const std::string& target, const std::string& token) {
     client.send(fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {}\r\n"
@@ -444,7 +462,7 @@ TEST(TripsApi, LetsNoSharedCacheKeepWhatOnlyTokensShow) {
 
 TEST(TripsApi, TakesNoTripThatTheDiskCannotHold) {
     TakingWorld world;
-    TripsApi trips{uploads_beside(world.file), {.min_free_bytes = 0}, [] {}};
+    TripsApi trips{uploads_beside(world.file), {.min_free_bytes = 0}, [] {}, {}};
     trips.set_crowd(true);
     HttpRequest request;
     request.method = "PUT";
@@ -467,7 +485,7 @@ TEST(TripsApi, TakesNoTripThatTheDiskCannotHold) {
 
 TEST(TripsApi, CountsTheRequestsOfAnOwnerNotOfHisTokens) {
     TakingWorld world;
-    TripsApi trips{uploads_beside(world.file), {.burst = 2}, [] {}};
+    TripsApi trips{uploads_beside(world.file), {.burst = 2}, [] {}, {}};
     const auto is_refused = [&](const std::string& token) {
         HttpRequest request;
         request.method = "GET";
