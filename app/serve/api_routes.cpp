@@ -64,7 +64,7 @@ struct Route {
 constexpr std::array routes{
     Route{"/", [](Pages&, const ApiContext& c, const PathWords&) { return landing_page(c); }},
     Route{"/conformance", [](Pages&, const ApiContext& c, const PathWords&) { return conformance_page(c); }},
-    Route{"/api", [](Pages& p, const ApiContext& c, const PathWords&) { return openapi_page(c, p.features.collections_for(false)); }},
+    Route{"/api", [](Pages& p, const ApiContext& c, const PathWords&) { return openapi_page(c, p.features.collections_for(false), p.has_queue); }},
     Route{"/collections", [](Pages& p, const ApiContext& c, const PathWords&) { return p.features.collections(c); }},
     Route{"/collections/{id}", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.collection(c, w[0]); }},
     Route{"/collections/{id}/queryables", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.queryables(c, w[0]); }},

@@ -15,6 +15,7 @@ struct Pages {
     FeaturesApi features;
     const LiveContent& live;
     PictureTiles& pictures;
+    bool has_queue = false; ///< of the database, on a server
 };
 
 /// Tests for a path of the recorder, also without the slash to which it is redirected.

@@ -230,7 +230,11 @@ void serve_database(const std::filesystem::path& file,
     ServedStore store{file, audience, count_workers(config), interruption.get_token()};
     LiveContent live{file, audience, console, look};
     PictureTiles pictures{file, audience, console, look.left_hand};
-    Pages pages{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
+    const bool has_queue = !reception.server.empty();
+    Pages pages{.features = FeaturesApi{sections},
+                .live = live,
+                .pictures = pictures,
+                .has_queue = has_queue};
     Pages of_operator{.features = FeaturesApi{sections}, .live = live, .pictures = pictures};
     ServerMetrics metrics;
     std::atomic<const HttpServer*> running = nullptr;
@@ -248,7 +252,7 @@ void serve_database(const std::filesystem::path& file,
     };
     follow();
     std::optional<QueueWatch> queue;
-    if (!reception.server.empty()) {
+    if (has_queue) {
         queue.emplace(reception.server, console);
     }
     auto* const queue_or_none = queue ? &*queue : nullptr;

@@ -96,7 +96,7 @@ constexpr std::string_view schemas =
     R"("links":{"type":"array","items":{"$ref":"#/components/schemas/Link"}}}},)"
     R"("Feature":{"type":"object","required":["type","id","geometry","properties"],"properties":{)"
     R"("type":{"type":"string","enum":["Feature"]},"id":{"type":"string"},)"
-    R"("geometry":{"type":"object","required":["type","coordinates"]},)"
+    R"("geometry":{"type":"object","nullable":true,"required":["type","coordinates"]},)"
     R"("properties":{"type":"object"}}},)"
     R"("FeatureCollection":{"allOf":[{"$ref":"#/components/schemas/Linked"},{"type":"object",)"
     R"("required":["type","features","numberMatched","numberReturned"],"properties":{)"
@@ -126,17 +126,19 @@ std::string operation_text(std::string_view id,
         .add("summary", std::string{summary})
         .add("parameters", JsonRaw{json_array(parameters)})
         .add("responses",
-             JsonRaw{
-                 fmt::format(R"({{"200":{{"description":"OK","content":{{"{}":{{"schema":{}}}}}}},)"
-                             R"("400":{{"$ref":"#/components/responses/Problem"}},)"
-                             R"("404":{{"$ref":"#/components/responses/Problem"}},)"
-                             R"("503":{{"$ref":"#/components/responses/Problem"}}}})",
-                             type,
-                             schema_of(id, type))});
+             JsonRaw{fmt::format(
+                 R"({{"200":{{"description":"OK","content":{{"{}":{{"schema":{}}}}}}},{})"
+                 R"("400":{{"$ref":"#/components/responses/Problem"}},)"
+                 R"("404":{{"$ref":"#/components/responses/Problem"}},)"
+                 R"("429":{{"$ref":"#/components/responses/Problem"}},)"
+                 R"("503":{{"$ref":"#/components/responses/Problem"}}}})",
+                 type,
+                 schema_of(id, type),
+                 id.ends_with("getTile") ? R"("204":{"description":"An empty tile"},)" : "")});
     return fmt::format(R"({{"get":{}}})", operation.text());
 }
 
-std::string paths_text(const std::vector<const Collection*>& collections) {
+std::string paths_text(const std::vector<const Collection*>& collections, bool has_queue) {
     const auto collection = [&] {
         std::vector<std::string> names;
         for (const auto* const each : collections) {
@@ -221,12 +223,16 @@ std::string paths_text(const std::vector<const Collection*>& collections) {
     add("/tileMatrixSets/{tileMatrixSetId}", "matrixSet", "A tile matrix set", json, {matrix_set});
     add("/tiles.json", "tileJson", "TileJSON 3.0", json);
     add("/health", "health", "Whether the server is well", "application/health+json");
+    add("/metrics", "metrics", "Counts for Prometheus", "text/plain");
     for (const auto& each : known_collections()) {
         if (each.is_of_operator) {
             add_trip_collection_paths(paths, items_parameters(each));
         }
     }
     add_trip_paths(paths);
+    if (has_queue) {
+        add_queue_paths(paths);
+    }
     return paths.text();
 }
 
@@ -301,7 +307,8 @@ HttpResponse conformance_page(const ApiContext& context) {
 }
 
 HttpResponse openapi_page(const ApiContext& context,
-                          const std::vector<const Collection*>& collections) {
+                          const std::vector<const Collection*>& collections,
+                          bool has_queue) {
     expect_parameters(context.request);
     const auto text = fmt::format(
         R"({{"openapi":"3.0.3","info":{{"title":{},"version":"{}","license":{{"name":{}}}}},)"
@@ -314,7 +321,7 @@ HttpResponse openapi_page(const ApiContext& context,
                       ? "of the operator"
                       : context.store.settings().attribution),
         context.base,
-        paths_text(collections),
+        paths_text(collections, has_queue),
         schemas,
         trip_security_schemes);
     return api_page(context, "API", text, openapi_type);

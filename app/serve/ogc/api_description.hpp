@@ -15,7 +15,9 @@ HttpResponse conformance_page(const ApiContext& context);
 
 /// Definition of the API, OpenAPI 3.0.
 /// \param collections  that everybody sees
+/// \param has_queue    the database has one
 HttpResponse openapi_page(const ApiContext& context,
-                          const std::vector<const Collection*>& collections);
+                          const std::vector<const Collection*>& collections,
+                          bool has_queue);
 
 } // namespace macadam

@@ -16,6 +16,19 @@ constexpr std::string_view upload_schema =
     R"("received":{"type":"string","format":"date-time"},"bytes":{"type":"integer"},)"
     R"("trips":{"type":"integer"},"passes":{"type":"integer"},"reason":{"type":"string"}}})";
 
+constexpr std::string_view queue_schema =
+    R"({"type":"object","required":["read","queue"],"properties":{)"
+    R"("read":{"type":"string","format":"date-time"},"queue":{"type":"object","required":[)"
+    R"("logs","oldest_s","accepted_in_minute","accepted_in_hour","finished_in_minute",)"
+    R"("finished_in_hour","passes_in_hour","chunks_to_fuse","objects","workers","failed"],)"
+    R"("properties":{"logs":{"type":"object","additionalProperties":{"type":"integer"}},)"
+    R"("oldest_s":{"type":"number"},"accepted_in_minute":{"type":"integer"},)"
+    R"("accepted_in_hour":{"type":"integer"},"finished_in_minute":{"type":"integer"},)"
+    R"("finished_in_hour":{"type":"integer"},"passes_in_hour":{"type":"integer"},)"
+    R"("chunks_to_fuse":{"type":"integer"},"objects":{"type":"string","nullable":true},)"
+    R"("workers":{"type":"array","items":{"type":"object"}},)"
+    R"("failed":{"type":"array","items":{"type":"object"}}}}}})";
+
 constexpr std::string_view sha256_parameter =
     R"({"name":"sha256","in":"path","required":true,"description":"SHA-256 of the bytes of the log",)"
     R"("schema":{"type":"string","pattern":"^[0-9a-f]{64}$"}})";
@@ -133,7 +146,7 @@ void add_trip_paths(JsonObject& paths) {
                    response_text(
                        "The token",
                        R"({"type":"object","required":["token"],"properties":{"token":{"type":"string"}}})")}},
-             .problems = {401, 404, 409, 429, 503}})});
+             .problems = {400, 401, 404, 409, 429, 503}})});
     paths.add("/v1/tokens", JsonRaw{tokens.text()});
     JsonObject list;
     list.add("get",
@@ -141,7 +154,7 @@ void add_trip_paths(JsonObject& paths) {
                                      .summary = "The latest 1000 uploads of the token's owner; of "
                                                 "all for an operator",
                                      .responses = {{200, response_text("OK", list_schema)}},
-                                     .problems = {401, 403, 404, 429, 503}})});
+                                     .problems = {400, 401, 403, 404, 429, 503}})});
     paths.add("/v1/trips", JsonRaw{list.text()});
     JsonObject one;
     one.add("put",
@@ -152,13 +165,13 @@ void add_trip_paths(JsonObject& paths) {
                  .body = log_body,
                  .responses = {{200, response_text("It is known", upload_schema)},
                                {202, response_text("It is on disk and waits", upload_schema)}},
-                 .problems = {401, 403, 404, 411, 413, 415, 422, 429, 503}})})
+                 .problems = {400, 401, 403, 404, 411, 413, 415, 422, 429, 503}})})
         .add("get",
              JsonRaw{operation_text({.id = "trip",
                                      .summary = "What became of an upload",
                                      .parameters = sha256_parameter,
                                      .responses = {{200, response_text("OK", upload_schema)}},
-                                     .problems = {401, 403, 404, 429, 503}})})
+                                     .problems = {400, 401, 403, 404, 429, 503}})})
         .add("delete",
              JsonRaw{operation_text(
                  {.id = "deleteTrip",
@@ -166,8 +179,27 @@ void add_trip_paths(JsonObject& paths) {
                   .parameters = sha256_parameter,
                   .responses = {{202, response_text("It will be deleted", upload_schema)},
                                 {204, response_text("It is gone", "")}},
-                  .problems = {401, 403, 404, 429, 503}})});
+                  .problems = {400, 401, 403, 404, 429, 503}})});
     paths.add("/v1/trips/{sha256}", JsonRaw{one.text()});
+}
+
+void add_queue_paths(JsonObject& paths) {
+    const auto add = [&](std::string_view path, Operation operation) {
+        operation.problems = {400, 401, 403, 404, 429, 503};
+        JsonObject object;
+        object.add("get", JsonRaw{operation_text(operation)});
+        paths.add(path, JsonRaw{object.text()});
+    };
+    add("/queue/",
+        {.id = "queuePage",
+         .summary = "Page of the queue; for tokens of scope operator",
+         .responses = {
+             {200,
+              R"({"description":"OK","content":{"text/html":{"schema":{"type":"string"}}}})"}}});
+    add("/queue/status",
+        {.id = "queueStatus",
+         .summary = "State of the queue; for tokens of scope operator",
+         .responses = {{200, response_text("OK", queue_schema)}}});
 }
 
 } // namespace macadam

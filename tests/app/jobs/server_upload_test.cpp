@@ -23,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using namespace nlohmann::literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -158,6 +159,14 @@ TEST(ServerUpload, IsSeenInTheQueueByOperatorsAlone) {
         status = world.server.ask("GET", "/queue/status", world.office).body;
     }
     EXPECT_THAT(status, AllOf(HasSubstr("\"queued\":2"), HasSubstr("\"accepted_in_hour\":2")));
+    const auto described = nlohmann::json::parse(get(world.server.port(), "/api").body)
+                               .at("/paths/~1queue~1status/get/responses/200/content"_json_pointer)
+                               .at("/application~1json/schema/properties/queue"_json_pointer);
+    const auto queue = nlohmann::json::parse(status).at("queue");
+    for (const auto& name : described.at("required")) {
+        EXPECT_TRUE(queue.contains(name)) << name;
+    }
+    EXPECT_EQ(queue.size(), described.at("required").size());
     const auto metrics = get(world.server.port(), "/metrics").body;
     EXPECT_THAT(metrics,
                 AllOf(HasSubstr("macadam_http_requests_total"),
