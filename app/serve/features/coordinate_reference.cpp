@@ -12,6 +12,7 @@ namespace {
 
 constexpr double mercator_radius_m = 6378137; // EPSG:3857: the sphere of WGS 84's semi-major axis
 constexpr double deg = std::numbers::pi / 180;
+constexpr int decimals_deg = 7; // 1 cm
 
 void append_numbers(std::string& text, double first, double second, int decimals) {
     text += '[';
@@ -22,7 +23,7 @@ void append_numbers(std::string& text, double first, double second, int decimals
 }
 
 void append_position(std::string& text, const GeoPoint& point, CoordinateReference crs) {
-    constexpr int decimals = 7, decimals_m = 3; // 1 cm, 1 mm
+    constexpr int decimals_m = 3; // 1 mm
     if (crs == CoordinateReference::epsg_3857) {
         const double most = 89.9 * deg; // the pole has no place
         const double lat = std::clamp(point.lat_deg * deg, -most, most);
@@ -31,9 +32,9 @@ void append_position(std::string& text, const GeoPoint& point, CoordinateReferen
                        mercator_radius_m * std::asinh(std::tan(lat)),
                        decimals_m);
     } else if (crs == CoordinateReference::epsg_4326) {
-        append_numbers(text, point.lat_deg, point.lon_deg, decimals);
+        append_numbers(text, point.lat_deg, point.lon_deg, decimals_deg);
     } else {
-        append_numbers(text, point.lon_deg, point.lat_deg, decimals);
+        append_numbers(text, point.lon_deg, point.lat_deg, decimals_deg);
     }
 }
 
@@ -58,6 +59,12 @@ GeoPoint geo_point_of(CoordinateReference crs, double first, double second) {
     }
     return crs == CoordinateReference::epsg_4326 ? GeoPoint{.lat_deg = first, .lon_deg = second}
                                                  : GeoPoint{.lat_deg = second, .lon_deg = first};
+}
+
+GeoPoint as_shown(const GeoPoint& point) {
+    const double unit = std::pow(10, decimals_deg);
+    return {.lat_deg = std::round(point.lat_deg * unit) / unit,
+            .lon_deg = std::round(point.lon_deg * unit) / unit};
 }
 
 void append_geometry(std::string& text,

@@ -29,6 +29,9 @@ std::optional<CoordinateReference> parse_coordinate_reference(std::string_view u
 /// Position from a pair of coordinates.
 GeoPoint geo_point_of(CoordinateReference crs, double first, double second);
 
+/// Rounds a position to the decimals with which features show it in degrees.
+GeoPoint as_shown(const GeoPoint& point);
+
 /// Appends a point, or a line, as the geometry of GeoJSON.
 /// \param is_point  the line has one position, of a point
 void append_geometry(std::string& text,

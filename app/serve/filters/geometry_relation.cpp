@@ -203,12 +203,15 @@ struct GeometryRelation::Impl {
         return made;
     }
 
+    /// Geometry of a feature as clients see it, so that they find it by its own positions.
     Geometry of(const Feature& feature) const {
-        if (feature.is_point || !crosses_antimeridian(feature.line)) {
-            return maker.line(feature.line);
+        std::vector<GeoPoint> line;
+        std::ranges::transform(feature.line, std::back_inserter(line), as_shown);
+        if (feature.is_point || !crosses_antimeridian(line)) {
+            return maker.line(line);
         }
         std::vector<Geometry> parts;
-        for (const auto& part : cut_at_antimeridian(feature.line)) {
+        for (const auto& part : cut_at_antimeridian(line)) {
             parts.push_back(maker.line(part));
         }
         return maker.collection(GEOS_MULTILINESTRING, std::move(parts));

@@ -175,6 +175,19 @@ TEST(Cql2, ComparesNumbersAsTheyAreShown) {
     EXPECT_TRUE(holds("iri = 4.25"));
 }
 
+TEST(Cql2, ComparesPlacesAsTheyAreShown) {
+    const std::vector<GeoPoint> exact{{50.12345678, 10.12345674}, {50.22222222, 10.33333333}};
+    for (const auto* const text :
+         {"S_INTERSECTS(geometry, POINT(10.1234567 50.1234568))",
+          "S_TOUCHES(geometry, POINT(10.3333333 50.2222222))",
+          "S_EQUALS(geometry, LINESTRING(10.1234567 50.1234568, 10.3333333 50.2222222))"}) {
+        EXPECT_TRUE(
+            feature_filter(parse_cql2_text(text), road_columns(), CoordinateReference::crs84)
+                .test({.id = "1", .line = exact, .row = &road}))
+            << text;
+    }
+}
+
 TEST(Cql2, FindsTheBoxThatAFilterNeeds) {
     const auto box_of = [](std::string_view text) {
         return feature_filter(parse_cql2_text(text), road_columns(), CoordinateReference::epsg_4326)
