@@ -4,6 +4,7 @@
 #include "app/http/http_server.hpp"
 #include "storage/files/gzip.hpp"
 #include "support/files/files.hpp"
+#include "support/http/hostile_texts.hpp"
 #include "support/http/http_client.hpp"
 #include "support/http/text_server.hpp"
 
@@ -189,28 +190,22 @@ TEST(StaticFolder, LeadsFromFoldersToTheirPages) {
 
 TEST(StaticFolder, ServesNothingOutside) {
     const FileWorld world;
-    for (const std::string_view path : {"/../secret.txt",
-                                        "/%2e%2e/secret.txt",
-                                        "/a/../../secret.txt",
-                                        "/a/%2e%2e/%2e%2e/secret.txt",
-                                        "/..%2fsecret.txt",
-                                        "/..%5csecret.txt",
-                                        "/a/..\\..\\secret.txt",
-                                        "//etc/passwd",
-                                        "/%2fetc/passwd",
-                                        "/link.txt",
-                                        "/.hidden",
+    for (const auto path : path_traversals) {
+        const auto answer = get(world.server->port(), path);
+        EXPECT_TRUE(answer.status == 404 || answer.status == 400) << path << answer.status;
+    }
+}
 
+TEST(StaticFolder, ServesFilesByTheirNamesAlone) {
+    const FileWorld world;
+    for (const std::string_view path : {"/link.txt",
+                                        "/.hidden",
                                         "/a/",
                                         "/./index.html",
                                         "/a//roads.pmtiles",
                                         "/index.html/",
                                         "/index.html/x",
-                                        "/%252e%252e/secret.txt",
-                                        "/a/roads.pmtiles/..",
-                                        "/proc/self/environ",
-                                        "/....//secret.txt",
-                                        "/%c0%ae%c0%ae/secret.txt"}) {
+                                        "/a/roads.pmtiles/.."}) {
         EXPECT_EQ(get(world.server->port(), path).status, 404) << path;
     }
 }
