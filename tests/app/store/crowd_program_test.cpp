@@ -4,7 +4,7 @@
 #include "support/program/places.hpp"
 #include "support/program/postgres_server.hpp"
 #include "support/program/program.hpp"
-#include "support/roads/drive.hpp"
+#include "support/roads/crowd_logs.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -26,24 +26,17 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr int cars = 6;
-constexpr int blocks = 13; // of 200 m, one way each
-constexpr double block_m = 200;
 
-/// A straight road of 2.6 km that six cars drive from end to end.
+/// The road of a crowd, which six cars drive.
 class Crowd : public ::testing::Test {
 protected:
     void SetUp() override {
         folder_ = fresh_folder();
         store_ = (folder_ / "crowd.gpkg").string();
-        write_file(folder_ / "road.osm", road_osm());
+        write_file(folder_ / "road.osm", crowd_road_osm());
         fs::create_directories(folder_ / "trips");
-        const auto text = text_of(
-            drive_over(patched_road([](double) { return false; }, 1), drive_, car()), drive_);
-        for (int number = 0; number < cars; ++number) {
-            auto of_car = text;
-            const std::string name{"golden-car"};
-            of_car.replace(of_car.find(name), name.size(), fmt::format("car-{}", number));
-            write_file(folder_ / "trips" / fmt::format("{}.trip.csv", number), of_car);
+        for (int number = 0; const auto& log : crowd_logs(cars)) {
+            write_file(folder_ / "trips" / fmt::format("{}.trip.csv", number++), log);
         }
     }
 
@@ -97,30 +90,6 @@ protected:
 
     fs::path folder_;
     std::string store_;
-
-private:
-    static const Vehicle& car() { return *built_in_vehicle("golden-car"); }
-
-    std::string road_osm() const {
-        std::string osm{"<osm version=\"0.6\">\n"};
-        for (int i = 0; i <= blocks; ++i) {
-            const auto place = place_of(drive_, block_m * i);
-            osm += fmt::format("<node id=\"{}\" lat=\"{:.7f}\" lon=\"{:.7f}\"/>\n",
-                               i + 1,
-                               place.lat_deg,
-                               place.lon_deg);
-        }
-        for (int i = 1; i <= blocks; ++i) {
-            osm += fmt::format("<way id=\"{}\"><nd ref=\"{}\"/><nd ref=\"{}\"/>"
-                               "<tag k=\"highway\" v=\"primary\"/></way>\n",
-                               i,
-                               i,
-                               i + 1);
-        }
-        return osm + "</osm>\n";
-    }
-
-    Drive drive_{.length_m = blocks * block_m};
 };
 
 TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
@@ -136,7 +105,7 @@ TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
     EXPECT_THAT(ways, Not(IsEmpty()));
     for (const int way : ways) { // 300 m and the block in which a drive's end lies
         EXPECT_GE(way, 3);
-        EXPECT_LE(way, blocks - 2);
+        EXPECT_LE(way, crowd_ways - 2);
     }
     EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("can be published once a month"));
     run({"report", store_, "-o", at("report.html")});
@@ -309,7 +278,7 @@ TEST_F(Crowd, ComingOfOnesOwnCarsTrimsTripsAgainThatWereTrimmedTooLittle) {
 TEST_F(Crowd, ComparesWhatIsPublishedWithoutCarsAndSpeeds) {
     make("crowd");
     std::string survey{"way_id,direction,from_m,to_m,mri\n"};
-    for (int way = 1; way <= blocks; ++way) {
+    for (int way = 1; way <= crowd_ways; ++way) {
         survey += fmt::format("{},forward,0,199,2\n", way);
     }
     write_file(folder_ / "survey.csv", survey);
