@@ -1,11 +1,13 @@
 // The examples of the standard of CQL2 (OGC 21-065r2, cql2/standard/schema/examples) under their numbers, asked of the roads of a
-// running server, in text and in the JSON that another program makes of it.
+// running server, in text and in the JSON that another program makes of it; and filters drawn from its grammar.
+import fc from 'fast-check';
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { evaluator, fitsSchema, jsonOf } from './cql2_oracle.mjs';
+import { condition } from './random_filters.mjs';
 import { served } from './served.mjs';
 import { databaseIn } from './simulated.mjs';
 
@@ -155,7 +157,7 @@ const others = {
   'example84': ['S_EQUALS(GEOMETRYCOLLECTION (POINT (15.6 48.4), POINT (15.7 48.5), MULTILINESTRING ((15.6 48.4, 15.7 48.5)), LINESTRING (15.6 48.4, 15.65 48.45)), "geometry")', 'collection'],
 };
 
-describe('the examples of the standard of CQL2', { timeout: 300_000 }, () => {
+describe('a filter in CQL2', { timeout: 300_000 }, () => {
   let folder;
   let server;
   let all;
@@ -175,7 +177,7 @@ describe('the examples of the standard of CQL2', { timeout: 300_000 }, () => {
     rmSync(folder, { recursive: true, force: true });
   });
 
-  test('are answered alike in text and in JSON that fits the schema', async () => {
+  test('of the standard is answered alike in text and in JSON that fits the schema', async () => {
     assert.ok(Object.keys(examples).length >= 100);
     for (const [number, text] of Object.entries(examples)) {
       const json = jsonFor(number);
@@ -188,7 +190,7 @@ describe('the examples of the standard of CQL2', { timeout: 300_000 }, () => {
     }
   });
 
-  test('select the features that another program selects', async () => {
+  test('of the standard selects the features that another program selects', async () => {
     let compared = 0;
     for (const [number, text] of Object.entries(examples)) {
       if (misjudged.includes(number)) continue;
@@ -205,7 +207,7 @@ describe('the examples of the standard of CQL2', { timeout: 300_000 }, () => {
     assert.ok(compared >= 80, `${compared}`);
   });
 
-  test('divide the features, so that a condition that is not applied is seen', async () => {
+  test('of the standard divides the features, so that a condition that is not applied is seen', async () => {
     const found = [];
     for (const [number, text] of Object.entries(examples)) {
       const { numberMatched } = await ask(text, 'cql2-text');
@@ -214,7 +216,29 @@ describe('the examples of the standard of CQL2', { timeout: 300_000 }, () => {
     assert.deepEqual(found, trivial);
   });
 
-  test('of other classes are refused by their names', async () => {
+  test('drawn from the grammar means the same to another program, 300 times', async () => {
+    const some = all.filter((_, i) => i % 5 === 0);
+    let compared = 0;
+    let divided = 0;
+    await fc.assert(fc.asyncProperty(condition, async (text) => {
+      const json = jsonOf(text);
+      const inText = await ask(text, 'cql2-text');
+      assert.equal(inText.status, 200, `${text} ${inText.detail}`);
+      const inJson = await ask(JSON.stringify(json), 'cql2-json');
+      assert.deepEqual(ids(inJson), ids(inText), `${text} ${JSON.stringify(json)}`);
+      const selected = new Set(ids(inText));
+      divided += selected.size > 0 && selected.size < all.length ? 1 : 0;
+      const passes = evaluator(json);
+      for (const feature of some) {
+        const expected = passes(feature);
+        compared += expected === undefined ? 0 : 1;
+        if (expected !== undefined) assert.equal(selected.has(feature.id), expected, `${text} ${JSON.stringify(feature)}`);
+      }
+    }), { numRuns: 300, seed: 21 });
+    assert.ok(compared > 250 * some.length && divided > 100, `${compared} ${divided}`);
+  });
+
+  test('of another class is refused by the name of what it needs', async () => {
     for (const [number, [text, words]] of Object.entries(others)) {
       const { status, detail } = await ask(text, 'cql2-text');
       assert.equal(status, 400, `${number}: ${text}`);

@@ -22,12 +22,13 @@ export const fitsSchema = new Ajv2020({ strict: false }).compile(schemaIn(bytes.
 
 const ofStandard = { t_finishedby: 't_finishedBy', t_metby: 't_metBy', t_overlappedby: 't_overlappedBy', t_startedby: 't_startedBy' };
 
-// The standard's forms of what cql2-rs writes in its own: boxes, numbers with a minus and some names.
+// The standard's forms of what cql2-rs writes in its own: boxes, lists of one value, numbers with a minus and some names.
 function standardForm(value) {
   if (Array.isArray(value)) return value.map(standardForm);
   if (value === null || typeof value !== 'object') return value;
   const { op, args } = value;
   if (op === 'bbox') return { bbox: args.map(standardForm) };
+  if (op === 'in' && !Array.isArray(args[1])) return { op, args: [standardForm(args[0]), [standardForm(args[1])]] };
   if (op === '*' && args[0] === -1 && typeof args[1] === 'number') return -args[1];
   return Object.fromEntries(Object.entries(value).map(([name, each]) => [name, name === 'op' ? ofStandard[each] ?? each : standardForm(each)]));
 }
