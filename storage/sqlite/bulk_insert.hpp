@@ -20,14 +20,27 @@ public:
     void add(const Values&... values) {
         int position = columns_ * pending_;
         (insert_.bind_at(++position, values), ...);
-        if (++pending_ == rows_) {
-            run();
+        end_row();
+    }
+
+    /// Adds a row that a statement has found.
+    void add_row(const Statement& row) {
+        const int first = columns_ * pending_ + 1;
+        for (int column = 0; column < columns_; ++column) {
+            insert_.bind_at(first + column, row.value(column));
         }
+        end_row();
     }
 
     void flush();
 
 private:
+    void end_row() {
+        if (++pending_ == rows_) {
+            run();
+        }
+    }
+
     void run();
 
     int columns_;

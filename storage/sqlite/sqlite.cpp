@@ -189,6 +189,12 @@ void Statement::bind_one(int position, Pointer value) {
                    sqlite3_bind_pointer(statement_.get(), position, value.to, value.type, nullptr));
 }
 
+void Statement::bind_one(int position, sqlite3_value* value) {
+    expect_success(sqlite3_db_handle(statement_.get()),
+                   *file_,
+                   sqlite3_bind_value(statement_.get(), position, value));
+}
+
 void Statement::bind_one(int position, std::nullopt_t) {
     expect_success(
         sqlite3_db_handle(statement_.get()), *file_, sqlite3_bind_null(statement_.get(), position));
@@ -214,12 +220,20 @@ std::string_view Statement::blob(int column) const {
     return bytes == nullptr ? std::string_view{} : std::string_view{bytes, size};
 }
 
+sqlite3_value* Statement::value(int column) const {
+    return sqlite3_column_value(statement_.get(), column);
+}
+
 std::vector<sqlite3_value*> Statement::values() const {
     std::vector<sqlite3_value*> values;
-    for (int column = 0; column < sqlite3_column_count(statement_.get()); ++column) {
-        values.push_back(sqlite3_column_value(statement_.get(), column));
+    for (int column = 0; column < column_count(); ++column) {
+        values.push_back(value(column));
     }
     return values;
+}
+
+int Statement::column_count() const {
+    return sqlite3_column_count(statement_.get());
 }
 
 bool Statement::is_null(int column) const {

@@ -78,6 +78,8 @@ public:
     std::string text(int column) const;
     std::string_view blob(int column) const; ///< valid until the next step
     bool is_null(int column) const;
+    int column_count() const;
+    sqlite3_value* value(int column) const;     ///< valid until the next step
     std::vector<sqlite3_value*> values() const; ///< all columns, valid until the next step
     std::optional<std::int64_t> known_integer(int column) const;
 
@@ -90,6 +92,7 @@ private:
     void bind_one(int position, std::string_view value);
     void bind_one(int position, Blob value);
     void bind_one(int position, Pointer value);
+    void bind_one(int position, sqlite3_value* value); ///< of a column, also of another database
     void bind_one(int position, std::nullopt_t);
     void bind_one(int position, int value) { bind_one(position, std::int64_t{value}); }
     void bind_one(int position, bool value) { bind_one(position, std::int64_t{value}); }

@@ -1,34 +1,22 @@
 #include "storage/store/road_store.hpp"
 
-#include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/store/connection/store_connection.hpp"
+#include "storage/store/copy/file_copy.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/schema/store_schema.hpp"
-
-#include <fmt/format.h>
 
 #include <system_error>
 #include <utility>
 
 namespace macadam {
-namespace {
-
-void refuse_existing(const std::filesystem::path& file) {
-    if (std::filesystem::exists(std::filesystem::symlink_status(file))) {
-        throw InputError{
-            fmt::format("{}: already exists, expected the name of a new file", file.string())};
-    }
-}
-
-} // namespace
 
 RoadStore RoadStore::create(const std::filesystem::path& file,
                             const RoadNetwork& roads,
                             const StoreSettings& settings,
                             const Progress& progress) {
-    refuse_existing(file);
+    expect_new_file(file);
     const auto key_file = key_file_of(file);
     const auto old_key = read_key(key_file);
     const auto key = old_key.value_or(PrivacyKey::make());

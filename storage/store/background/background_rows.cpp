@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/background/background_tiling.hpp"
+#include "mapping/geometry/antimeridian.hpp"
 
 #include <fmt/format.h>
 
@@ -38,11 +39,51 @@ void insert_places(Database& database, std::vector<PlaceName> places) {
     }
 }
 
+/// Condition that holds in any part of a box on the globe.
+template <typename Condition>
+std::string in_any_part(const GeoBox& box, Condition condition) {
+    std::string any;
+    for (const auto& part : parts_on_globe(box)) {
+        any += fmt::format("{}({})", any.empty() ? "" : " OR ", condition(part));
+    }
+    return any;
+}
+
 } // namespace
 
 GeoBox background_box(const RoadNetwork& roads) {
     constexpr double margin_m = 5000;
     return grown(extent_of(roads), margin_m);
+}
+
+std::string tiles_in(const GeoBox& box) {
+    return in_any_part(box, [](const GeoBox& part) {
+        std::string any;
+        for (const auto& level : background_levels) {
+            const auto tiles = tiles_of(part, level.zoom);
+            any += fmt::format("{}(zoom = {} AND tile_x BETWEEN {} AND {} AND tile_y BETWEEN {}"
+                               " AND {})",
+                               any.empty() ? "" : " OR ",
+                               level.zoom,
+                               tiles.first_x,
+                               tiles.last_x,
+                               tiles.first_y,
+                               tiles.last_y);
+        }
+        return any;
+    });
+}
+
+std::string places_in(const GeoBox& box) {
+    return in_any_part(box, [](const GeoBox& part) {
+        const auto south_west = packed({part.south_deg, part.west_deg});
+        const auto north_east = packed({part.north_deg, part.east_deg});
+        return fmt::format("lat_e7 BETWEEN {} AND {} AND lon_e7 BETWEEN {} AND {}",
+                           south_west.lat_e7,
+                           north_east.lat_e7,
+                           south_west.lon_e7,
+                           north_east.lon_e7);
+    });
 }
 
 BackgroundSize

@@ -38,6 +38,12 @@ GeoBox background_box(const RoadNetwork& roads);
 BackgroundSize
 replace_background(Database& database, const GeoBox& box, const BackgroundSource& source);
 
+/// \name Conditions, as SQL of any engine, for rows within a box whose east may exceed 180 degrees
+/// @{
+std::string tiles_in(const GeoBox& box);  ///< of table background: tiles that meet it
+std::string places_in(const GeoBox& box); ///< of table place
+/// @}
+
 BackgroundSize background_size(Database& database);
 
 /// Reads the tiles of a level that meet a box, in the order of x, y.

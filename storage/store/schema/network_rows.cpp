@@ -100,6 +100,22 @@ void expect_sound(const Way& way, const Database& database) {
     }
 }
 
+constexpr const char* select_ways =
+    "SELECT way_id, name, highway, oneway, node_ids, points, speed_limit_cmps, turns FROM way";
+
+Way way_in(const Statement& row, const Database& database) {
+    Way way{.id = row.integer(0),
+            .name = row.text(1),
+            .highway = row.text(2),
+            .oneway = static_cast<Oneway>(row.integer(3)),
+            .node_ids = values_of<std::int64_t>(row.blob(4)),
+            .line = values_of<GeoPoint>(row.blob(5)),
+            .speed_limit_cmps = static_cast<std::uint16_t>(row.integer(6)),
+            .turns = values_of<TurnRule>(row.blob(7))};
+    expect_sound(way, database);
+    return way;
+}
+
 } // namespace
 
 bool is_line(std::span<const GeoPoint> line) {
@@ -202,6 +218,11 @@ WrittenSegments write_segments(Database& database,
     return written;
 }
 
+void reserve_published_rows(Database& database) {
+    database.run("UPDATE sqlite_sequence SET seq = max(seq, (SELECT coalesce(max(last_segment), 0)"
+                 " FROM publication)) WHERE name = 'segment'");
+}
+
 WrittenSegments count_segments(const RoadNetwork& roads) {
     WrittenSegments all;
     for (std::uint32_t i = 0; i < link_count(roads); ++i) {
@@ -222,20 +243,21 @@ void update_extent(Database& database, const GeoBox& box) {
 }
 
 std::vector<Way> read_ways(Database& database) {
-    auto select = database.prepare(
-        "SELECT way_id, name, highway, oneway, node_ids, points, speed_limit_cmps, turns"
-        " FROM way ORDER BY way_id");
+    auto select = database.prepare(fmt::format("{} ORDER BY way_id", select_ways));
     std::vector<Way> ways;
     while (select.step()) {
-        ways.push_back({.id = select.integer(0),
-                        .name = select.text(1),
-                        .highway = select.text(2),
-                        .oneway = static_cast<Oneway>(select.integer(3)),
-                        .node_ids = values_of<std::int64_t>(select.blob(4)),
-                        .line = values_of<GeoPoint>(select.blob(5)),
-                        .speed_limit_cmps = static_cast<std::uint16_t>(select.integer(6)),
-                        .turns = values_of<TurnRule>(select.blob(7))});
-        expect_sound(ways.back(), database);
+        ways.push_back(way_in(select, database));
+    }
+    return ways;
+}
+
+std::vector<Way> read_ways(Database& database, std::span<const std::int64_t> ids) {
+    auto select = database.prepare(fmt::format("{} WHERE way_id = ?", select_ways));
+    std::vector<Way> ways;
+    for (const auto id : ids) {
+        if (select.bind(id).step()) {
+            ways.push_back(way_in(select, database));
+        }
     }
     return ways;
 }

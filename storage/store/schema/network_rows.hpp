@@ -40,6 +40,10 @@ WrittenSegments write_segments(Database& database,
                                const Progress& progress,
                                const std::vector<bool>& left_out = {});
 
+/// Has write_segments() use rows that no publication knew. Rows are never used twice, also those
+/// that a later map removed: publications tell by them which segments they knew.
+void reserve_published_rows(Database& database);
+
 /// Segments that write_segments would write.
 WrittenSegments count_segments(const RoadNetwork& roads);
 
@@ -50,5 +54,8 @@ void update_extent(Database& database, const GeoBox& box);
 ///
 /// \throws InputError  if a way is not a valid polyline.
 std::vector<Way> read_ways(Database& database);
+
+/// Reads those of some ways that are there, in the order of the list.
+std::vector<Way> read_ways(Database& database, std::span<const std::int64_t> ids);
 
 } // namespace macadam

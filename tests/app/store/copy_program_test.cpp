@@ -38,7 +38,9 @@ TEST_F(CopyProgram, CopiesThereAndBackAndSaysTheDigest) {
     EXPECT_EQ(back.exit_status, 0) << back.err;
     EXPECT_THAT(back.out, HasSubstr(digest.substr(0, 64)));
     EXPECT_EQ(run_macadam({"info", (folder_ / "back.gpkg").string(), "--digest"}).out, digest);
-    EXPECT_EQ(run_macadam({"copy", file_, (folder_ / "c.gpkg").string()}).exit_status, 2);
+    const auto to_file = run_macadam({"copy", file_, (folder_ / "c.gpkg").string()});
+    EXPECT_EQ(to_file.exit_status, 2);
+    EXPECT_THAT(to_file.err, HasSubstr("or --bbox or --area, which cut a region out"));
     EXPECT_EQ(run_macadam({"copy", address_, address_}).exit_status, 2);
     EXPECT_EQ(run_macadam({"copy", file_, address_}).exit_status, 1); // one is there already
 }
@@ -74,9 +76,29 @@ TEST_F(CopyProgram, CutsARegionOutIntoAFile) {
     const auto empty = run_macadam({"copy", address_, other, "--bbox", "4,45,4,46"});
     EXPECT_EQ(empty.exit_status, 2);
     EXPECT_THAT(empty.err, HasSubstr("--bbox is 4,45,4,46, expected west,south,east,north"));
-    const auto of_file = run_macadam({"copy", file_, address_, "--bbox", "4,45,5,46"});
-    EXPECT_EQ(of_file.exit_status, 2);
-    EXPECT_THAT(of_file.err, HasSubstr("cut a region out of a database on a server"));
+    for (const auto& from : {file_, address_}) {
+        const auto to_server = run_macadam({"copy", from, address_, "--bbox", "4,45,5,46"});
+        EXPECT_EQ(to_server.exit_status, 2);
+        EXPECT_THAT(to_server.err, HasSubstr("expected TO to be a new .gpkg file"));
+    }
+}
+
+TEST_F(CopyProgram, CutsARegionOutOfAFile) {
+    const auto all = run_macadam({"info", file_, "--digest"}).out;
+    const auto town = (folder_ / "town.gpkg").string();
+    const auto cut = run_macadam({"copy", file_, town, "--bbox", "4,45,5,46"});
+    EXPECT_EQ(cut.exit_status, 0) << cut.err;
+    EXPECT_THAT(cut.out, HasSubstr("3 trips, 60 passes; digest on both sides: " + all));
+    EXPECT_THAT(cut.err, HasSubstr("town.gpkg.key: key of the cars; keep it"));
+    EXPECT_EQ(run_macadam({"info", town, "--digest"}).out, all);
+    EXPECT_THAT(run_macadam({"info", town, "--audit"}).out,
+                HasSubstr("cut: the box 4,45,5,46 of " + file_));
+    const auto other = (folder_ / "other.gpkg").string();
+    const auto empty = run_macadam({"copy", file_, other, "--bbox", "10,50,11,51"});
+    EXPECT_EQ(empty.exit_status, 1);
+    EXPECT_THAT(empty.err,
+                HasSubstr("no road lies in the box 10,50,11,51; its roads lie in the box 4.8"));
+    EXPECT_FALSE(fs::exists(other));
 }
 
 TEST_F(CopyProgram, LetsTheServersDatabaseBeReadLikeTheFile) {

@@ -1,8 +1,6 @@
-#include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
-#include "storage/store/rows/store_digest.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/store/server/copy/new_copy.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
@@ -11,9 +9,6 @@
 #include "storage/store/server/server_schema.hpp"
 #include "storage/store/server/user_files.hpp"
 
-#include <fmt/format.h>
-
-#include <system_error>
 #include <utility>
 
 namespace macadam {
@@ -30,42 +25,8 @@ struct ServerCopy {
 
 } // namespace
 
-void expect_new_file(const fs::path& file) {
-    std::error_code none;
-    if (fs::exists(fs::symlink_status(file, none))) {
-        throw InputError{
-            fmt::format("{}: already exists, expected the name of a new file", file.string())};
-    }
-}
-
-StoreCopy finish_copy(ServerConnection& server,
-                      Database& database,
-                      AtomicFileSet& whole,
-                      const std::string& original,
-                      const Progress& progress) {
-    const auto file = database.file();
-    const StoreCopy copy{
-        .trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),
-        .passes = static_cast<std::size_t>(database.number("SELECT count(*) FROM pass")),
-        .digest = digest_of(database, {.report = {}, .stop = progress.stop}),
-        .by_superuser = server.is_superuser(),
-        .key_file = key_file_of(file)};
-    if (original != copy.digest) {
-        throw InputError{fmt::format("{}: the copy has the digest {}, expected {}; nothing was "
-                                     "written",
-                                     file.string(),
-                                     copy.digest,
-                                     original)};
-    }
-    server.commit();
-    const auto key = read_key(server_key_file(read_key_id(database)));
-    database.close();
-    remove_leftovers_of(file);
-    whole.commit_new();
-    if (key && !read_key(copy.key_file)) {
-        write_key(copy.key_file, *key);
-    }
-    return copy;
+std::optional<PrivacyKey> key_of_copy(Database& copy) {
+    return read_key(server_key_file(read_key_id(copy)));
 }
 
 StoreCopy
@@ -80,8 +41,11 @@ copy_from_server(const std::string& address, const fs::path& file, const Progres
     Database database{whole.main_file(), Database::Access::create, file};
     RowsFromServer rows{server, database, progress};
     fill_copy(rows, database, ServerContent::all);
-    return finish_copy(
-        server, database, whole, digest_of_server(server, rows.chunk_size(), progress), progress);
+    const auto digest = digest_of_server(server, rows.chunk_size(), progress);
+    server.commit();
+    auto copy = finish_copy(database, whole, digest, key_of_copy(database), progress);
+    copy.by_superuser = server.is_superuser();
+    return copy;
 }
 
 void copy_network_from_server(ServerConnection& server,
@@ -115,16 +79,16 @@ open_server_copy(ServerConnection& server,
     expect_server_schema(server);
     auto copy = std::make_shared<ServerCopy>(fs::temp_directory_path() / "macadam");
     const auto file = copy->folder.path() / "roads.gpkg";
-    std::string key_id;
+    std::optional<PrivacyKey> key;
     {
         Database database{file, Database::Access::create, server.address()};
         RowsFromServer rows{server, database, progress};
         fill(rows, database);
-        key_id = read_key_id(database);
+        key = key_of_copy(database);
         database.close();
     }
     one_moment.commit();
-    if (const auto key = read_key(server_key_file(key_id))) {
+    if (key) {
         write_key(key_file_of(file), *key);
     }
     copy->store = open_connection(file, access, wait_policy, Audience::operator_, server.address());

@@ -227,8 +227,7 @@ StoreCopy copy_to_server(const fs::path& file,
                          const std::string& address,
                          const LockWaitPolicy& wait_policy,
                          const Progress& progress) {
-    const auto store =
-        open_connection(file, Database::Access::read, wait_policy, Audience::operator_);
+    const auto store = open_original(file, wait_policy);
     ServerConnection server{address};
     auto& database = store->database;
     Transaction one_moment{database, Transaction::Kind::read};
@@ -244,13 +243,7 @@ StoreCopy copy_to_server(const fs::path& file,
         .key_file = server_key_file(read_key_id(database))};
     const auto copied =
         digest_of_server(server, static_cast<std::uint32_t>(store->segments_per_chunk()), progress);
-    if (copied != copy.digest) {
-        throw InputError{fmt::format("{}: the copy has the digest {}, expected {}; nothing was "
-                                     "written",
-                                     address,
-                                     copied,
-                                     copy.digest)};
-    }
+    expect_same_digest(copied, copy.digest, address);
     if (store->key && !read_key(copy.key_file)) {
         fs::create_directories(copy.key_file.parent_path());
         write_key(copy.key_file, *store->key);

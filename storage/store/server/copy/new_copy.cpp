@@ -2,6 +2,7 @@
 
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/server_array.hpp"
+#include "storage/store/schema/network_rows.hpp"
 #include "storage/store/schema/new_store.hpp"
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/store/schema/store_schema.hpp"
@@ -99,11 +100,6 @@ void copy_trips_of_passes(RowsFromServer& rows,
 }
 
 } // namespace
-
-void reserve_published_rows(Database& file) {
-    file.run("UPDATE sqlite_sequence SET seq = max(seq, (SELECT coalesce(max(last_segment), 0)"
-             " FROM publication)) WHERE name = 'segment'");
-}
 
 void fill_copy(RowsFromServer& rows, Database& file, ServerContent content) {
     fill_new(rows, file, [&] {

@@ -21,10 +21,6 @@ enum class ServerContent : std::uint8_t {
 /// transaction there.
 void fill_copy(RowsFromServer& rows, Database& file, ServerContent content);
 
-/// Has new segments get rows that no publication knew. Rows are never used twice, also those that a
-/// later map removed: publications tell by them which segments they knew.
-void reserve_published_rows(Database& file);
-
 /// Contents of a copy of some chunks besides roads and fused values.
 struct PartContent {
     bool passes = false;       ///< with their trips and cars, and what fusion needs

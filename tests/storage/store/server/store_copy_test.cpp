@@ -126,6 +126,15 @@ TEST_F(StoreCopies, GoThereAndBackWithEveryRow) {
     EXPECT_EQ(store.digest(), original.digest());
 }
 
+TEST_F(StoreCopies, NeedTheKeyOfACrowdsFileWhichHidesItsTripsWithoutIt) {
+    auto crowd = testing::settings();
+    crowd.privacy = PrivacyProfile::crowd;
+    static_cast<void>(RoadStore::create(file_, small_country(), crowd));
+    fs::remove(folder_ / "roads.gpkg.key");
+    EXPECT_THAT(refusal_there(), HasSubstr("roads.gpkg: is of a crowd, and its key is not at "));
+    EXPECT_EQ(one("SELECT count(*) FROM pg_namespace WHERE nspname = 'macadam'"), "0");
+}
+
 TEST_F(StoreCopies, ShowTheSameValuesAndPassesInSql) {
     make_rich_store(file_);
     copy_there();
