@@ -25,6 +25,7 @@
 #include <mutex>
 #include <optional>
 #include <random>
+#include <stop_token>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -42,6 +43,7 @@ constexpr auto after_trouble = 5s;
 constexpr auto max_objects_pause = 60s;
 constexpr auto upkeep_every = 60s;
 constexpr auto fuse_at_age = 45s;
+constexpr std::chrono::seconds max_fusing = 60s;
 constexpr std::size_t max_batch = 100;
 constexpr std::size_t max_erased = 20; // in one transaction: who submits one of them again waits
 
@@ -104,7 +106,7 @@ private:
                 delete_if_asked();
                 connect();
                 look_after();
-                fuse_if_older_than(fuse_at_age);
+                fuse_if_older_than(fuse_at_age, max_fusing);
                 open_stores();
                 if (!work_batch() && !is_idle_done()) {
                     pause(look_every);
@@ -344,18 +346,28 @@ private:
     }
 
     /// Fuses if the oldest new passes wait for so long. Several workers divide the chunks.
-    void fuse_if_older_than(std::chrono::seconds age) {
+    ///
+    /// \param longest  after which trips have their turn: all chunks of a country take hours
+    void fuse_if_older_than(std::chrono::seconds age, std::optional<std::chrono::seconds> longest) {
         const bool is_due =
             queue_->number(fmt::format("SELECT count(*) FROM (SELECT FROM macadam.chunk_dirty"
                                        " WHERE since_ms <= extract(epoch FROM clock_timestamp())"
                                        " * 1000 - {} LIMIT 1) AS oldest",
                                        std::chrono::milliseconds{age}.count())) > 0;
-        if (is_due && Clock::now() >= may_fuse_at_) {
-            const auto begin = Clock::now();
-            FusionRecord record;
-            store_->trips->refresh({.report = {}, .stop = console_.stop()}, record);
-            may_fuse_at_ = Clock::now() + 4 * (Clock::now() - begin); // a fifth of the time
+        if (!is_due || Clock::now() < may_fuse_at_) {
+            return;
         }
+        const auto begin = Clock::now();
+        std::stop_source enough;
+        const std::stop_callback stopped{console_.stop(), [&] { enough.request_stop(); }};
+        const auto look = [&](std::size_t, std::size_t) {
+            if (longest && Clock::now() - begin > *longest) {
+                enough.request_stop();
+            }
+        };
+        FusionRecord record;
+        store_->trips->refresh({.report = look, .stop = enough.get_token()}, record);
+        may_fuse_at_ = Clock::now() + 4 * (Clock::now() - begin); // a fifth of the time
     }
 
     /// No job is free: fuses, at once if none is worked on either.
@@ -370,8 +382,9 @@ private:
         if (is_empty) {
             may_fuse_at_ = {};
         }
-        fuse_if_older_than(is_empty ? 0s : fuse_at_age);
         is_done_ = work_.until_empty && is_empty;
+        fuse_if_older_than(is_empty ? 0s : fuse_at_age,
+                           is_done_ ? std::nullopt : std::optional{max_fusing});
         return is_done_;
     }
 
