@@ -2,7 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/geometry/antimeridian.hpp"
-#include "mapping/geometry/area.hpp"
+#include "mapping/geometry/area.hpp" // IWYU pragma: keep; the area of a region is one
 #include "storage/atomic/atomic_file_set.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/store/copy/cut_out.hpp"

@@ -1,5 +1,4 @@
 #include "estimator/common/error.hpp"
-#include "mapping/passes/chunk_trace.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/ewkb.hpp"
 #include "storage/store/fusion/store_version.hpp"
