@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -230,10 +231,17 @@ void create_cell_schema(ServerConnection& cell) {
     cell.run(with_columns(cell_functions));
 }
 
-/// Settings with which the front's server connects.
+/// Settings with which the front's server connects. A server that is gone without a word is given
+/// up after 20 s, as by ServerConnection.
 ConnectionSettings settings_of(const std::string& address) {
     auto settings = connection_settings(address);
-    settings.try_emplace("connect_timeout", "10");
+    for (const auto& [keyword, value] : {std::pair{"connect_timeout", "10"},
+                                         {"tcp_user_timeout", "20000"},
+                                         {"keepalives_idle", "10"},
+                                         {"keepalives_interval", "5"},
+                                         {"keepalives_count", "2"}}) {
+        settings.try_emplace(keyword, value);
+    }
     return settings;
 }
 
@@ -293,14 +301,17 @@ std::string cell_table(const std::string& parent, std::int32_t cell, std::int64_
 }
 
 std::optional<CellServer> cell_server_at(ServerConnection& front, const std::string& address) {
-    const auto connection = connection_text(address);
+    const auto settings = settings_of(address);
     if (!has_cells(front)) {
         return std::nullopt;
     }
-    const auto found =
-        front.rows("SELECT name FROM macadam_cells.address WHERE connection = $1", {connection});
-    return found.empty() ? std::nullopt
-                         : std::optional{CellServer{found[0][0].value_or(""), connection}};
+    for (const auto& row : front.rows("SELECT name, connection FROM macadam_cells.address")) {
+        const auto connection = row[1].value_or("");
+        if (settings_of(connection) == settings) { // also of an earlier version, with fewer of them
+            return CellServer{row[0].value_or(""), connection};
+        }
+    }
+    return std::nullopt;
 }
 
 CellServer add_cell_server(ServerConnection& front, const std::string& address) {

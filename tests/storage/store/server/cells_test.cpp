@@ -32,6 +32,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::AnyOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 class Cells : public CellWorld {};
@@ -247,6 +248,24 @@ TEST_F(Cells, AreMovedByThoseOnlyWhoMay) {
     ServerConnection owner{front_};
     move_cell(owner, numbers_.at(1), west_); // known by now
     EXPECT_THAT(cells_of(owner).at(1).connection, HasSubstr("dbname='west'"));
+}
+
+TEST_F(Cells, OfAServerThatIsGoneWithoutAWordDoNotHoldTheFrontUpForLong) {
+    move(0, west_);
+    ServerConnection boss{boss_};
+    const auto options =
+        boss.rows("SELECT array_to_string(srvoptions, ' ') FROM pg_foreign_server");
+    for (const auto& connection : {cells_of(boss).at(0).connection, options.at(0)[0].value()}) {
+        EXPECT_THAT(connection, ContainsRegex("tcp_user_timeout='?20000"));
+        EXPECT_THAT(connection, ContainsRegex("keepalives_idle='?10"));
+    }
+}
+
+TEST_F(Cells, GoToAServerThatAnEarlierVersionKnewWithoutTimeLimits) {
+    move(0, west_);
+    ServerConnection{boss_}.run("UPDATE macadam_cells.address SET connection = regexp_replace("
+                                "connection, '(keepalives|tcp)\\w+=''\\d+'' ?', '', 'g')");
+    EXPECT_GT(move(1, west_), 0);
 }
 
 TEST_F(Cells, KeepTheirAddressesFromTheOwnerOfTheRoads) {
