@@ -9,7 +9,8 @@ import time
 import psycopg2
 
 from ledger import hash_of, store
-from nodes import programs, send, tree
+from nodes import programs
+from processes import send, tree
 
 RESTORED_PORT = 15433
 AGAIN = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "forget_listed.sql"

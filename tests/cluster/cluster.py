@@ -3,9 +3,10 @@
     cluster.py up FOLDER                      starts them and tells their address
     cluster.py down FOLDER                    ends them
     cluster.py test FOLDER PROGRAM [--minutes N] [--seed N] [--no-stall-limit]
-        has clients store trips while servers are killed, frozen, cut off, switched over and run out of
-        disk; then holds what was acknowledged against the ledger, and the digest against that of a replay;
-        then does without synchronous commits, and expects to lose trips. Status 0 if all is as it should be.
+        has clients and workers store trips while servers are killed, frozen, cut off, switched over and run
+        out of disk; then holds what was acknowledged against the ledger, and the digest against that of a
+        replay into a file; for a fifth of the time, does the same with a cell on another such cluster; then
+        does without synchronous commits, and expects to lose trips. Status 0 if all is as it should be.
 
 All processes live in a namespace of their own, where the kernel lets an ordinary user have one, and end
 with it, even if it is killed.
@@ -23,19 +24,11 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
-from backup import restored_to_a_moment  # noqa: E402
-from imports import Imports  # noqa: E402
-from ledger import Clients, Templates, breaches, store  # noqa: E402
-from nemesis import Nemesis, haunt  # noqa: E402
-from nodes import Cluster, is_alive, leave_init_behind, pid_in, run, send  # noqa: E402
+from nodes import Cluster  # noqa: E402
+from processes import is_alive, leave_init_behind, pid_in, run, send  # noqa: E402
+from trial import Trial  # noqa: E402
 
 INSIDE = "MACADAM_CLUSTER_INSIDE"
-MAX_STALL_S = 30
-began = time.monotonic()
-
-
-def say(words):
-    print(f"{time.monotonic() - began:7.1f} s  {words}", flush=True)
 
 
 def as_ordinary_user():
@@ -132,149 +125,6 @@ def down(arguments):
         send([pid], signal.SIGKILL)
 
 
-class Trial:
-    """The test: the same clients and checks, with synchronous commits and without."""
-
-    def __init__(self, arguments):
-        self.arguments = arguments
-        self.folder = pathlib.Path(arguments.folder)
-        self.cluster = Cluster(self.folder / "state", isolated=os.environ[INSIDE] == "isolated")
-        self.breaches = []
-
-    def start(self, *words, timeout):
-        environment = {**os.environ, "PGPASSFILE": str(self.cluster.folder / "pgpass"), "HOME": str(self.folder)}
-        return subprocess.run([self.arguments.program, *words], env=environment, timeout=timeout, cwd=self.folder,
-                              capture_output=True, text=True, check=False)
-
-    def macadam(self, *words):
-        done = self.start(*words, timeout=600)
-        if done.returncode != 0:
-            raise RuntimeError(f"macadam {' '.join(words)}: exit {done.returncode}: {done.stderr[-2000:]}")
-        return done.stdout
-
-    def psql(self, address, *words, **options):
-        environment = {"PATH": os.environ["PATH"], "PGPASSFILE": str(self.cluster.folder / "pgpass")}
-        return run("psql", "-X", "-v", "ON_ERROR_STOP=1", address, *words, env=environment, timeout=300, **options)
-
-    def say(self, words):
-        say(words)
-
-    def expect(self, holds, claim):
-        say(f"{'holds' if holds else 'BREACH'}: {claim}")
-        if not holds:
-            self.breaches.append(claim)
-
-    def simulate_trips(self):
-        """A small fleet, whose drives the clients send again and again."""
-        roads, sample = self.folder / "roads.gpkg", pathlib.Path(__file__).parents[2] / "sample_data" / "fleet"
-        for old in self.folder.glob("*.gpkg*"):
-            old.unlink()
-        recipe = (sample / "recipe.toml").read_text().replace("count = 30", "count = 3").replace("[6, 10]", "[2, 3]")
-        (self.folder / "recipe.toml").write_text(recipe)
-        shutil.rmtree(self.folder / "fleet", ignore_errors=True)
-        self.macadam("simulate", "-o", "fleet", "--network", str(sample / "network.osm.pbf"), "--recipe", "recipe.toml")
-        self.macadam("init", str(roads), "--network", "fleet/network.osm.pbf")
-        self.macadam("import", str(roads), "fleet/trips")
-        return roads
-
-    def new_ledger(self, database, roads):
-        self.cluster.new_database(database)
-        self.macadam("copy", str(roads), self.cluster.address(database))
-        connection = self.cluster.connect(database)
-        templates = Templates(connection)
-        connection.close()
-        return templates
-
-    def digest(self, database):
-        return self.digest_at(self.cluster.address(database), database)
-
-    def digest_at(self, address, name):
-        """Digest of what a server holds, fetched into a GeoPackage."""
-        file = self.folder / f"{name}.gpkg"
-        file.unlink(missing_ok=True)
-        self.macadam("copy", address, str(file))
-        return self.macadam("info", str(file), "--digest").strip()
-
-    def replayed(self, roads, found, templates):
-        """Digest of the same trips stored one after the other, undisturbed."""
-        self.new_ledger("replay", roads)
-        connection = self.cluster.connect("replay")
-        connection.cursor().execute("SET synchronous_commit = off")
-        for number in found:
-            store(connection, templates, number)
-        connection.close()
-        return self.digest("replay")
-
-    def disturbed(self, roads):
-        templates = self.new_ledger("ledger", roads)
-        clients = Clients(self.cluster, "ledger", templates, self.folder / "history.jsonl", self.arguments.seed)
-        imports = Imports(self, "imports")
-        nemesis = Nemesis(self.cluster, self.arguments.seed, say)
-        clients.start()
-        imports.thread.start()
-        time.sleep(3)
-        haunt(nemesis, time.monotonic() + 60 * self.arguments.minutes)
-        say(f"whole again {self.cluster.wait_until_whole(120):.0f} s after the last fault")
-        time.sleep(2)
-        clients.stop()
-        imports.stop()
-        connection = self.cluster.connect("ledger")
-        wrong, found = breaches(connection, clients)
-        connection.close()
-        stall = clients.longest_stall_s([begin for _, begin, _ in nemesis.done])
-        kinds = {name for name, _, _ in nemesis.done}
-        say(f"{len(nemesis.done)} faults of {len(kinds)} kinds; {len(clients.meant)} trips meant,"
-            f" {len(clients.acknowledged)} acknowledged, {len(found)} in the ledger, {clients.failures} tries failed,"
-            f" {clients.doubts} commits in doubt; longest stall {stall:.1f} s after a fault,"
-            f" {clients.longest_stall_s():.1f} s over several")
-        for words in wrong[:10]:
-            say(f"  {words}")
-        self.expect(len(clients.acknowledged) > 20 * self.arguments.minutes, "the clients got trips stored")
-        self.expect(not wrong, "each acknowledged trip is in the ledger once, and whole")
-        if not self.arguments.no_stall_limit:
-            self.expect(stall <= MAX_STALL_S, f"writes went on within {MAX_STALL_S} s of the last fault, with nobody touching anything")
-        self.expect(self.digest("ledger") == self.replayed(roads, found, templates),
-                    "the digest is that of an undisturbed replay")
-        wrong = imports.breaches()
-        say(f"macadam import: {imports.answers} times acknowledged, {len(imports.acknowledged)} trips,"
-            f" {imports.failures} failed; {'; '.join(wrong) or 'no breach'}")
-        self.expect(imports.answers > 0 and not wrong, "what macadam imported is there once, with the digest of a file")
-        return templates
-
-    def without_synchronous_commits(self, roads):
-        """The checks must find what asynchronous commits lose, or they are no good."""
-        self.cluster.become_asynchronous()
-        templates = self.new_ledger("asynchronous", roads)
-        clients = Clients(self.cluster, "asynchronous", templates, self.folder / "asynchronous.jsonl", self.arguments.seed)
-        clients.start()
-        time.sleep(3)
-        nemesis = Nemesis(self.cluster, self.arguments.seed, say)
-        nemesis.run(nemesis.lose_unsent_commits)
-        self.cluster.wait_until_whole(120)
-        time.sleep(1)
-        clients.stop()
-        connection = self.cluster.connect("asynchronous")
-        wrong, _ = breaches(connection, clients)
-        connection.close()
-        say(f"without synchronous commits: {'; '.join(wrong) or 'no breach'}")
-        self.expect(bool(wrong), "the same checks fail without synchronous commits")
-
-    def run(self):
-        say(f"seed {self.arguments.seed}; "
-            + ("servers in namespaces of their own: faults of networks and disks, too" if self.cluster.isolated else
-               "this kernel lets ordinary users have no namespaces: no partitions and full disks"))
-        try:
-            roads = self.simulate_trips()
-            self.cluster.start()
-            say(f"up\n{self.cluster.list()}")
-            templates = self.disturbed(roads)
-            restored_to_a_moment(self, templates)
-            self.without_synchronous_commits(roads)
-        finally:
-            self.cluster.stop()
-        return 1 if self.breaches else 0
-
-
 def main():
     parser = argparse.ArgumentParser(prog="cluster", usage=__doc__)
     parser.add_argument("command", choices=("up", "down", "test"))
@@ -294,7 +144,7 @@ def main():
     elif arguments.command == "up":
         keep_up(arguments) if INSIDE in os.environ else up(arguments)
     elif INSIDE in os.environ:
-        sys.exit(Trial(arguments).run())
+        sys.exit(Trial(arguments, isolated=os.environ[INSIDE] == "isolated").run())
     else:
         if arguments.seed is None:
             arguments.seed = secrets.randbelow(1 << 31)

@@ -5,7 +5,8 @@ import time
 
 import psycopg2
 
-from nodes import NAMES, WAL_KEPT_MIB, send
+from nodes import NAMES, WAL_KEPT_MIB
+from processes import send
 
 SHORT_S, LONG_S = 8, 26
 
@@ -13,12 +14,13 @@ SHORT_S, LONG_S = 8, 26
 class Nemesis:
     """Draws faults from a seed. What cannot be done without namespaces of networks is left out."""
 
-    def __init__(self, cluster, seed, say):
+    def __init__(self, cluster, seed, say, left_out=None):
         import random
 
         self.cluster, self.say = cluster, say
         self.random = random.Random(seed)
         self.hand = []
+        self.left_out = left_out
         self.done = []  # (fault, begin, end)
 
     def faults(self):
@@ -28,7 +30,7 @@ class Nemesis:
                       self.lose_unsent_commits]
         isolated = [self.cut_primary_off, self.cut_primary_off_its_peers, self.cut_standby_off,
                     self.fill_disk_of_primary, self.fill_disk_of_standby]
-        return everywhere + (isolated if self.cluster.isolated else [])
+        return [fault for fault in everywhere + (isolated if self.cluster.isolated else []) if fault.__name__ != self.left_out]
 
     def draw(self):
         """Each kind comes once before one comes again, so that few minutes see most."""
@@ -222,9 +224,10 @@ class Nemesis:
         self.full(self.standby(synchronous=True))
 
 
-def haunt(nemesis, ends, pause_s=(4, 10)):
+def haunt(nemeses, ends, pause_s=(4, 10)):
     """Causes faults until the time is over; each but some comes to a cluster that is whole again."""
     while time.monotonic() < ends:
+        nemesis = nemeses[0].random.choice(nemeses)
         try:
             nemesis.run(nemesis.draw())
             time.sleep(nemesis.random.uniform(*pause_s))

@@ -18,6 +18,8 @@ import urllib.request
 import psycopg2
 import yaml
 
+from processes import pid_in, run, send, tree
+
 NAMES = ("n1", "n2", "n3")
 DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
 STANZA = "macadam"
@@ -35,73 +37,18 @@ def programs():
     return found[-1].parent
 
 
-def pid_in(file):
-    """First number in a file of a process; None if there is none."""
-    try:
-        return int(file.read_text().split()[0])
-    except (OSError, ValueError, IndexError):
-        return None
-
-
-def is_alive(pid):
-    try:
-        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
-
-
-def tree(roots):
-    """Processes and all that they started."""
-    children = {}
-    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        try:
-            parent = int(stat.read_text().rpartition(")")[2].split()[1])
-        except OSError:
-            continue
-        children.setdefault(parent, []).append(int(stat.parent.name))
-    found, waiting = [], [pid for pid in roots if pid and is_alive(pid)]
-    while waiting:
-        pid = waiting.pop()
-        if pid not in found:
-            found.append(pid)
-            waiting += children.get(pid, [])
-    return found
-
-
-def send(pids, number):
-    for pid in pids:
-        try:
-            os.kill(pid, number)
-        except ProcessLookupError:
-            pass
-
-
-def leave_init_behind():
-    """As the first process of a namespace, goes on in a child, and here awaits what others leave behind: Patroni takes
-    a dead PostgreSQL that nobody waits for to be alive."""
-    if os.getpid() != 1:
-        return
-    child = os.fork()
-    if child == 0:
-        return
-    signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))
-    while True:
-        pid, status = os.wait()
-        if pid == child:
-            os._exit(os.waitstatus_to_exitcode(status) & 0xFF)
-
-
 class Node:
     """One server. etcd and Patroni are started again 2 s after they ended, as systemd does."""
 
     def __init__(self, cluster, number):
         self.cluster = cluster
         self.name = NAMES[number]
-        self.address = f"10.77.0.{number + 1}" if cluster.isolated else f"127.0.77.{number + 1}"
+        host = cluster.first_host + number
+        self.address = f"10.77.0.{host}" if cluster.isolated else f"127.0.77.{host}"
         self.folder = cluster.folder / self.name
         self.data = self.folder / "disk" / "data"
         self.backups = self.folder / "pgbackrest.conf"
-        self.link = f"port{number + 1}"
+        self.link = f"port{host}"
         self.holder = None  # process that keeps the network namespace
         self.running = {}  # program: its process
         self.ended_at = {}
@@ -275,22 +222,29 @@ class Node:
                 run(*words, "del", other.address, "dev", "eth0")
 
 
-def run(*command, check=True, **options):
-    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
-    if check and done.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)}: exit {done.returncode}: {done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout
+def lay_bridge():
+    """Connects the network namespaces of servers, and this one."""
+    if run("ip", "link", "show", "bridge", check=False):
+        return
+    run("ip", "link", "set", "lo", "up")
+    run("ip", "link", "add", "bridge", "type", "bridge", "forward_delay", "0")
+    run("ip", "addr", "add", "10.77.0.254/24", "dev", "bridge")
+    run("ip", "link", "set", "bridge", "up")
 
 
 class Cluster:
-    """The three servers, and a thread that starts again what ended."""
+    """The three servers, and a thread that starts again what ended.
 
-    def __init__(self, folder, isolated):
+    A second cluster beside the first one has other hosts, and the same passwords.
+    """
+
+    def __init__(self, folder, isolated, first_host=1, passwords=None):
         self.folder = pathlib.Path(folder)
+        self.first_host = first_host
         self.repository = self.folder / "backup"  # of WAL and backups, no part of a server
         self.isolated = isolated
         self.synchronous = True
-        self.passwords = {role: secrets.token_hex(16) for role in ROLES}
+        self.passwords = passwords or {role: secrets.token_hex(16) for role in ROLES}
         self.nodes = [Node(self, number) for number in range(len(NAMES))]
         self.is_stopping = threading.Event()
         self.supervisor = threading.Thread(target=self._supervise, daemon=True)
@@ -315,18 +269,17 @@ class Cluster:
         self.folder.mkdir(parents=True, mode=0o700)
         self.repository.mkdir(mode=0o700)
         if self.isolated:
-            run("ip", "link", "set", "lo", "up")
-            run("ip", "link", "add", "bridge", "type", "bridge", "forward_delay", "0")
-            run("ip", "addr", "add", "10.77.0.254/24", "dev", "bridge")
-            run("ip", "link", "set", "bridge", "up")
+            lay_bridge()
         for node in self.nodes:
             node.prepare()
-        pgpass = self.folder / "pgpass"
-        pgpass.write_text("".join(f"*:*:*:{role}:{word}\n" for role, word in self.passwords.items()))
-        pgpass.chmod(0o600)
+        self.write_passwords(self.folder / "pgpass", ROLES)
         self.supervisor.start()
         self.wait_until_whole(deadline_s)
         self.awaited_primary().pgbackrest("stanza-create")
+
+    def write_passwords(self, file, roles):
+        file.write_text("".join(f"*:*:*:{role}:{self.passwords[role]}\n" for role in roles))
+        file.chmod(0o600)
 
     def _supervise(self):
         while not self.is_stopping.wait(0.5):
