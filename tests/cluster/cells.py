@@ -27,11 +27,12 @@ def _disturbed(trial, other):
     workers = Workers(trial, "front", pause_s=2)
     front = trial.cluster.address("front", "postgres")
     cells = [str(one["cell"]) for one in json.loads(trial.macadam("cells", workers.address, "--json"))]
-    trial.macadam("cells", front, "--move", cells[0], "--to", other.address("cells"))
     there = Nemesis(other, f"{trial.arguments.seed} there", lambda words: trial.say(f"of the cell: {words}"),
                     left_out="cancel_waiting_commits")  # postgres_fdw does not tell (docs/scale.md)
     here = Nemesis(trial.cluster, f"{trial.arguments.seed} here", trial.say)
     workers.start()
+    time.sleep(5)
+    trial.macadam("cells", front, "--move", cells[0], "--to", other.address("cells"))
     time.sleep(5)
     ends = time.monotonic() + 60 * trial.arguments.minutes / 5
     there.run(there.kill_postgres_and_patroni)
