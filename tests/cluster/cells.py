@@ -27,8 +27,7 @@ def _disturbed(trial, other):
     workers = Workers(trial, "front", pause_s=2)
     front = trial.cluster.address("front", "postgres")
     cells = [str(one["cell"]) for one in json.loads(trial.macadam("cells", workers.address, "--json"))]
-    there = Nemesis(other, f"{trial.arguments.seed} there", lambda words: trial.say(f"of the cell: {words}"),
-                    left_out="cancel_waiting_commits")  # postgres_fdw does not tell (docs/scale.md)
+    there = Nemesis(other, f"{trial.arguments.seed} there", lambda words: trial.say(f"of the cell: {words}"))
     here = Nemesis(trial.cluster, f"{trial.arguments.seed} here", trial.say)
     workers.start()
     time.sleep(5)

@@ -9,7 +9,8 @@ DRIVES = {
             " JOIN segment ON segment.fid = pass.segment JOIN trip ON trip.id = pass.trip",
     "trace": "SELECT trip.trip_id, trace.strip, trace.drive, trace.* FROM trace JOIN trip ON trip.id = trace.trip",
 }
-OF_TRIPS = ("pass", "trace", "event", "event_search", "row_reason", "state_change", "audit", "strip_state", "segment_state", "trip")
+OF_TRIPS = ("pass", "trace", "event", "event_search", "row_reason", "state_change", "audit", "strip_state",
+            "segment_state", "trip")
 
 
 def drives_in(file, table):
@@ -21,7 +22,7 @@ def drives_in(file, table):
 
 
 def replay(name, templates, numbers):
-    """Puts trips of the ledger in the place of those of a file, as Templates does on the server; fusion is left to the program."""
+    """Puts trips of the ledger in the place of those of a file, as on the server. Fusion is left to the program."""
     with sqlite3.connect(name) as file:
         drives = {table: drives_in(file, table) for table in DRIVES}
         for table in OF_TRIPS:

@@ -92,8 +92,9 @@ class Workers:
     def breaches(self):
         """What is wrong with queue and database, in words."""
         status = self.status()
-        wrong = [f"a log is {one['state']}: {one['reason']}" for one in status["failed"]]
-        wrong += [f"{count} logs are {state}" for state, count in status["logs"].items() if count and state not in ("imported", "known")]
+        wrong = [f"{count} logs are {state}" for state, count in status["logs"].items()
+                 if count and state not in ("imported", "known")]
+        wrong += [one["reason"] for one in status["failed"]]
         if not self.queued:
             wrong.append("no submission was acknowledged")
         return wrong + self.logs.breaches(self.queued)

@@ -13,29 +13,16 @@
 namespace macadam {
 namespace {
 
-/// Sends a call for each cell.
-void send_drives(ServerConnection& front) {
-    std::string arrays;
-    for (const auto& column : server_table("drive").columns) {
-        arrays += fmt::format(", array_agg(new_drive.{})", column.name);
-    }
+/// Runs a statement that calls functions of PL/Proxy, whose commits other servers may warn of.
+std::vector<std::int64_t> called(ServerConnection& front,
+                                 const std::string& sql,
+                                 const std::vector<std::optional<std::string>>& values = {}) {
     static_cast<void>(front.take_warnings());
-    std::vector<std::int64_t> counts;
+    std::vector<std::int64_t> numbers;
     try {
-        counts = front.numbers(fmt::format(
-            "SELECT macadam.put_drives(server, 'drive_' || cell || '_' || number{}), count(*)"
-            " FROM pg_temp.new_drive JOIN macadam.cell_place USING (cell)"
-            " GROUP BY server, cell, number",
-            arrays));
+        numbers = front.numbers(sql, values);
     } catch (const InputError& error) {
         throw ServerTrouble{error.what()};
-    }
-    for (std::size_t i = 0; i + 1 < counts.size(); i += 2) {
-        if (counts[i] != counts[i + 1]) { // numbers of trips are used once
-            throw InputError{fmt::format("{}: a server of its cells has drives of trips that are "
-                                         "new here; were both restored to one moment?",
-                                         front.address())};
-        }
     }
     if (const auto warnings = front.take_warnings(); !warnings.empty()) {
         throw ServerTrouble{fmt::format("{}: a server of its cells warns: {}; run the command "
@@ -43,9 +30,42 @@ void send_drives(ServerConnection& front) {
                                         front.address(),
                                         warnings.front())};
     }
+    return numbers;
+}
+
+/// Sends a call for each cell.
+void send_drives(ServerConnection& front) {
+    std::string arrays;
+    for (const auto& column : server_table("drive").columns) {
+        arrays += fmt::format(", array_agg(new_drive.{})", column.name);
+    }
+    const auto counts =
+        called(front,
+               fmt::format("SELECT macadam.put_drives(server, 'drive_' || cell || '_' || number{}),"
+                           " count(*) FROM pg_temp.new_drive JOIN macadam.cell_place USING (cell)"
+                           " GROUP BY server, cell, number",
+                           arrays));
+    for (std::size_t i = 0; i + 1 < counts.size(); i += 2) {
+        if (counts[i] != counts[i + 1]) { // numbers of trips are used once
+            throw InputError{fmt::format("{}: a server of its cells has drives of trips that are "
+                                         "new here; were both restored to one moment?",
+                                         front.address())};
+        }
+    }
 }
 
 } // namespace
+
+void await_standbys(ServerConnection& front, const std::set<std::int32_t>& cells) {
+    if (front.number("SELECT (to_regprocedure('macadam.await_standby(text)') IS NOT NULL)"
+                     "::integer") == 0) {
+        return;
+    }
+    called(front,
+           "SELECT count(macadam.await_standby(server)) FROM (SELECT DISTINCT server"
+           " FROM macadam.cell_place WHERE cell = ANY($1::integer[])) AS places",
+           {array_of(cells)});
+}
 
 bool are_elsewhere(ServerConnection& front, const std::set<std::int32_t>& cells) {
     return has_cells(front) &&

@@ -40,6 +40,13 @@ private:
     std::optional<ServerConnection> notes_; ///< for transactions beside that of front_
 };
 
+/// Waits until standbys of other servers that hold any of these cells have what was committed
+/// there: postgres_fdw does not tell of a commit that ended without. Nothing on a front whose first
+/// cell moved before this existed.
+///
+/// \throws ServerTrouble  if a server does not answer, or a standby of it may lack something.
+void await_standbys(ServerConnection& front, const std::set<std::int32_t>& cells);
+
 /// Removes the drives of trips that were not stored, unless they were sent in the last minutes.
 void remove_unfinished(ServerConnection& front);
 

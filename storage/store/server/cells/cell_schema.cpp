@@ -105,10 +105,16 @@ CREATE FUNCTION macadam.add_cell_tables(server text, cell integer, number bigint
 RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam_cells.connection_of(server); $$;
 CREATE FUNCTION macadam.drop_cell_tables(server text, kept bigint[])
 RETURNS bigint LANGUAGE plproxy AS $$ CONNECT macadam_cells.connection_of(server); $$;
+CREATE FUNCTION macadam.await_standby(server text) RETURNS pg_lsn LANGUAGE plproxy AS $$
+    CONNECT macadam_cells.connection_of(server);
+    SELECT pg_catalog.pg_logical_emit_message(true, 'macadam', '');
+$$;
 COMMENT ON FUNCTION macadam.put_drives IS 'Stores drives in a table of another server, in a transaction of its own; what is there already stays';
+COMMENT ON FUNCTION macadam.await_standby IS 'Commits on another server, which ends, or warns, as those before it did that waited for a standby';
 COMMENT ON FUNCTION macadam.add_cell_tables IS 'Creates tables of a cell on another server, filled from those of another number there';
 COMMENT ON FUNCTION macadam.drop_cell_tables IS 'Removes tables of cells on another server but those of these numbers';
-REVOKE ALL ON FUNCTION macadam.put_drives, macadam.add_cell_tables, macadam.drop_cell_tables FROM PUBLIC;
+REVOKE ALL ON FUNCTION macadam.put_drives, macadam.await_standby, macadam.add_cell_tables, macadam.drop_cell_tables
+FROM PUBLIC;
 )sql";
 
 /// On a server that holds cells: the same functions, and empty tables, as which those are made that
@@ -289,9 +295,9 @@ void create_front(ServerConnection& front) {
               granting("SELECT, INSERT, UPDATE, DELETE ON macadam.unfinished", importers));
     front.run("RESET ROLE");
     front.run(with_columns(front_functions) +
-              granting("EXECUTE ON FUNCTION macadam.put_drives", importers) +
-              granting_to_owner("EXECUTE ON FUNCTION macadam.put_drives, macadam.add_cell_tables,"
-                                " macadam.drop_cell_tables"));
+              granting("EXECUTE ON FUNCTION macadam.put_drives, macadam.await_standby", importers) +
+              granting_to_owner("EXECUTE ON FUNCTION macadam.put_drives, macadam.await_standby,"
+                                " macadam.add_cell_tables, macadam.drop_cell_tables"));
 }
 
 } // namespace

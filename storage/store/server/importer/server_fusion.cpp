@@ -3,6 +3,7 @@
 #include "storage/postgres/copy_stream.hpp"
 #include "storage/postgres/server_array.hpp"
 #include "storage/store/rows/audit.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_rows.hpp"
 #include "storage/store/server/server_tables.hpp"
@@ -231,17 +232,25 @@ std::vector<std::int64_t> ServerFusion::fuse(std::span<const std::int64_t> chunk
         batch.marked.push_back(marks[i]);
         batch.trips.push_back(marks[i + 1]);
     }
+    std::set<std::int32_t> cells;
+    bool elsewhere = false;
     if (!batch.chunks.empty()) {
-        std::set<std::int32_t> cells;
         for (const auto chunk : batch.chunks) {
             cells.insert(rows_->place_of(chunk).cell);
         }
         share_cells(*server_, cells);
         batch.fused = scratch_.fused(batch.chunks);
         write(batch, audit_now);
+        elsewhere = are_elsewhere(*server_, cells);
+        if (!elsewhere) {
+            remove_marks(batch);
+        }
     }
     all.commit();
     audit = audit_now;
+    if (elsewhere) {
+        remove_marks_once_kept(batch, cells);
+    }
     for (const auto& chunk : batch.fused) {
         for (const auto& segment : chunk.segments) {
             segments.push_back(segment.fid);
@@ -270,7 +279,6 @@ void ServerFusion::write(const Batch& batch, std::optional<std::int64_t>& audit)
     server_->rows("INSERT INTO macadam.chunk_change SELECT unnest($1::bigint[])"
                   " ON CONFLICT (chunk) DO UPDATE SET changed = excluded.changed",
                   {array_of(batch.chunks)});
-    remove_marks(batch);
 }
 
 void ServerFusion::write_alignments(const Batch& batch) {
@@ -296,6 +304,14 @@ void ServerFusion::remove_marks(const Batch& batch) {
     server_->rows("DELETE FROM macadam.chunk_dirty WHERE chunk = ANY($1::bigint[])"
                   " AND (chunk, trip) IN (SELECT * FROM unnest($2::bigint[], $3::bigint[]))",
                   {array_of(batch.chunks), array_of(batch.marked), array_of(batch.trips)});
+}
+
+void ServerFusion::remove_marks_once_kept(const Batch& batch, const std::set<std::int32_t>& cells) {
+    ServerTransaction all{*server_};
+    expect_same_();
+    await_standbys(*server_, cells);
+    remove_marks(batch);
+    all.commit();
 }
 
 } // namespace macadam

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ namespace macadam {
 ///
 /// A batch of chunks is one transaction: it locks each chunk by an advisory lock of its number,
 /// reads its marks, then its drives, fuses them, writes what changed, and removes the marks that it
-/// had read, so that no drive that arrives meanwhile is left unfused.
+/// had read, so that no drive that arrives meanwhile is left unfused. Marks of cells on other
+/// servers go in a second transaction, once these are known to keep what the first one wrote.
 class ServerFusion {
 public:
     /// \param image  roads of the database; outlives this object, as do the others.
@@ -61,6 +63,7 @@ private:
     void write(const Batch& batch, std::optional<std::int64_t>& audit);
     void write_alignments(const Batch& batch);
     void remove_marks(const Batch& batch);
+    void remove_marks_once_kept(const Batch& batch, const std::set<std::int32_t>& cells);
 
     ServerConnection* server_;
     StoreConnection* image_;

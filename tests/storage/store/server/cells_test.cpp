@@ -233,6 +233,29 @@ TEST_F(Cells, SayThatATripIsInDoubtUntilTheStandbyOfACellHasIt) {
     EXPECT_EQ(digest(), digest_of_file(1));
 }
 
+TEST_F(Cells, FuseAgainWhatTheStandbyOfACellMayLack) {
+    move(3, east_);
+    const auto open = open_server_import(front_);
+    EXPECT_TRUE(add_border_trip(*open.trips, 0));
+    const auto boss = east_server_.address("east");
+    ServerConnection east{boss};
+    lose_standby(boss);
+    auto fused =
+        std::async(std::launch::async, [&] { return refusal_of([&] { fuse_all(*open.trips); }); });
+    while (fused.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
+        east.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " +
+                    waits_for_standby);
+    }
+    EXPECT_THAT(
+        fused.get(),
+        AllOf(HasSubstr("a server of its cells warns"), HasSubstr("run the command again")));
+    EXPECT_GT(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
+    need_no_standby(boss);
+    fuse_all(*open.trips);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
+    EXPECT_EQ(digest(), digest_of_file(1));
+}
+
 TEST_F(Cells, AreMovedByThoseOnlyWhoMay) {
     const auto refusal = [&](const std::string& by, std::int32_t cell, const std::string& to) {
         return refusal_of([&] {
