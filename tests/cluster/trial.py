@@ -87,7 +87,7 @@ class Trial:
         for old in ("fleet", "tmp", *(old.name for old in self.folder.glob("*-objects"))):
             shutil.rmtree(self.folder / old, ignore_errors=True)
         (self.folder / "tmp").mkdir()
-        recipe = (sample / "recipe.toml").read_text().replace("count = 30", "count = 3").replace("[6, 10]", "[2, 3]")
+        recipe = (sample / "recipe.toml").read_text().replace("count = 30", "count = 3").replace("[6, 10]", "[0.8, 1.5]")
         (self.folder / "recipe.toml").write_text(recipe)
         self.macadam("simulate", "-o", "fleet", "--network", str(sample / "network.osm.pbf"), "--recipe", "recipe.toml")
         roads = self.new_file("roads")
