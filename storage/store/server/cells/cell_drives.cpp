@@ -97,7 +97,9 @@ void CellDrives::note(const std::string& trips, std::size_t count) {
         notes_.emplace(front_->address());
     }
     try {
+        ServerTransaction one{*notes_};
         notes_->rows("INSERT INTO macadam.unfinished (trip) SELECT unnest($1::bigint[])", {trips});
+        one.commit(); // the standby then has their numbers, too, which are not given again
     } catch (const InputError&) {
         notes_.reset(); // perhaps broken
         throw;

@@ -233,6 +233,25 @@ TEST_F(Cells, SayThatATripIsInDoubtUntilTheStandbyOfACellHasIt) {
     EXPECT_EQ(digest(), digest_of_file(1));
 }
 
+TEST_F(Cells, GetNoDrivesBeforeTheStandbyOfTheFrontHasTheirNote) {
+    move(3, east_);
+    const auto open = open_server_import(front_);
+    ServerConnection boss{boss_};
+    lose_standby(boss_);
+    auto first = std::async(std::launch::async,
+                            [&] { return refusal_of([&] { add_border_trip(*open.trips, 0); }); });
+    while (first.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
+        boss.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " +
+                    waits_for_standby);
+    }
+    EXPECT_THAT(first.get(), HasSubstr("in doubt until its standby has it"));
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 0);
+    need_no_standby(boss_);
+    EXPECT_TRUE(add_border_trip(*open.trips, 0));
+    fuse_all(*open.trips);
+    EXPECT_EQ(digest(), digest_of_file(1));
+}
+
 TEST_F(Cells, FuseAgainWhatTheStandbyOfACellMayLack) {
     move(3, east_);
     const auto open = open_server_import(front_);
@@ -252,6 +271,14 @@ TEST_F(Cells, FuseAgainWhatTheStandbyOfACellMayLack) {
     EXPECT_GT(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
     need_no_standby(boss);
     fuse_all(*open.trips);
+    EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
+    EXPECT_EQ(digest(), digest_of_file(1));
+}
+
+TEST_F(Cells, FuseOnAFrontOfAnEarlierVersionToo) {
+    move(3, east_);
+    ServerConnection{boss_}.run("DROP FUNCTION macadam.await_standby");
+    import(0, 1);
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
     EXPECT_EQ(digest(), digest_of_file(1));
 }
