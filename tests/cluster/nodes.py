@@ -24,7 +24,7 @@ NAMES = ("n1", "n2", "n3")
 DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
 STANZA = "macadam"
 TTL_S = 20  # the shortest that Patroni's manual allows
-DISK_MIB = 700
+DISK_MIB = 1000
 WAL_KEPT_MIB = 64
 ROLES = ("postgres", "replicator", "rewinder", "patroni", "macadam")
 
