@@ -67,7 +67,7 @@ std::vector<std::int64_t> fetch_part(ServerConnection& server,
                                      std::span<const ServerChunk> chunks,
                                      const GeoBox& ground) {
     const auto ways = array_of(ways_of(server, chunks));
-    const auto around = ways_near(server, ways);
+    auto around = ways_near(server, ways);
     const auto others = other_chunks(server, chunks, ways);
     PartContent content{.passes = true, .publications = true, .roads_alone = others};
     content.others = [&] {
