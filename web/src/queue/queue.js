@@ -40,13 +40,15 @@ class Figures {
   }
 }
 
-// Table of columns [key of its title, class]; without rows it gives way to words.
+// Table of columns [key of its title, class]; without rows it gives way to words. On a phone, a wide one shows each row as
+// a list of titles and values: roles say that it is a table all the same.
 class Table {
   constructor(id, columns, whenEmpty = '') {
     this.columns = columns;
-    this.body = element('tbody');
-    const titles = columns.map(([key, kind]) => element('th', { scope: 'col', class: kind }, words(key)));
-    const table = element('table', { 'aria-labelledby': id }, element('thead', {}, element('tr', {}, ...titles)), this.body);
+    this.body = element('tbody', { role: 'rowgroup' });
+    const titles = columns.map(([key, kind]) => element('th', { role: 'columnheader', scope: 'col', class: kind }, words(key)));
+    const table = element('table', { role: 'table', class: columns.length > 3 ? 'wide' : '', 'aria-labelledby': id },
+      element('thead', { role: 'rowgroup' }, element('tr', { role: 'row' }, ...titles)), this.body);
     this.scroll = element('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': id }, table);
     this.empty = element('p', { class: 'soft', hidden: true }, whenEmpty);
     this.node = element('div', {}, this.scroll, this.empty);
@@ -56,7 +58,7 @@ class Table {
   show(rows) {
     while (this.body.rows.length > rows.length) this.body.lastChild.remove();
     rows.forEach(({ cells, isBad }, i) => {
-      const row = this.body.rows[i] ?? this.body.appendChild(element('tr', {}, ...this.columns.map(([, kind]) => element('td', { class: kind }))));
+      const row = this.body.rows[i] ?? this.body.appendChild(element('tr', { role: 'row' }, ...this.columns.map(([key, kind]) => element('td', { role: 'cell', class: kind, 'data-title': words(key) }))));
       row.classList.toggle('bad', isBad === true);
       cells.forEach((text, column) => setText(row.cells[column], text));
     });
