@@ -7,6 +7,7 @@ that cables can be cut and disks be filled; elsewhere it has an address of the l
 import json
 import os
 import pathlib
+import re
 import secrets
 import shutil
 import signal
@@ -175,6 +176,16 @@ class Node:
             return command
         command = ["unshare", "-U", "--map-user=1000", "--map-group=1000", "--", *command]
         return ["nsenter", "-t", str(self.holder.pid), "-n", "--", *command] if self.holder else command
+
+    def leave_out_of_archive_what_others_archived(self):
+        """As docs/cluster.md says: of a timeline that has ended, a server that was rewound may hold a segment other than
+        the one in the archive, and archives no later one before it."""
+        archived = {path.name[:24] for path in (self.cluster.repository / "archive").rglob("*") if path.is_file()}
+        segments = self.data / "pg_wal"
+        timeline = max(path.name[:8] for path in segments.iterdir() if re.fullmatch("[0-9A-F]{24}", path.name))
+        for mark in (segments / "archive_status").glob("*.ready"):
+            if mark.stem[:8] < timeline and mark.stem in archived:
+                mark.unlink(missing_ok=True)
 
     def pgbackrest(self, *words):
         environment = {"PATH": f"{programs()}:/usr/bin:/bin", "PGPASSFILE": str(self.cluster.folder / "pgpass"),
