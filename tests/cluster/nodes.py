@@ -185,7 +185,7 @@ class Node:
         timeline = max(path.name[:8] for path in segments.iterdir() if re.fullmatch("[0-9A-F]{24}", path.name))
         for mark in (segments / "archive_status").glob("*.ready"):
             if mark.stem[:8] < timeline and mark.stem in archived:
-                mark.unlink(missing_ok=True)
+                mark.rename(mark.with_suffix(".done"))  # PostgreSQL would make a removed one again at the next checkpoint
 
     def pgbackrest(self, *words):
         environment = {"PATH": f"{programs()}:/usr/bin:/bin", "PGPASSFILE": str(self.cluster.folder / "pgpass"),
