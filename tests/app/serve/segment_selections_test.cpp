@@ -36,6 +36,16 @@ ItemsQuery query_of(const std::vector<std::pair<std::string, std::string>>& para
                              segments_collection().columns());
 }
 
+/// Query for all segments that counts those that it looks at.
+ItemsQuery query_that_counts(std::size_t& looked_at) {
+    auto query = query_of({});
+    query.tests.emplace_back([&](const Feature& /*feature*/) {
+        ++looked_at;
+        return true;
+    });
+    return query;
+}
+
 /// A town whose first trip leaves out some of its segments; later ones drive over a part.
 struct DrivenTown {
     explicit DrivenTown(const std::filesystem::path& file, int first_number = 0)
@@ -121,11 +131,7 @@ TEST(SegmentSelections, AreThoseOfASearchOfAllSegmentsAfterEachTrip) {
 TEST(SegmentSelections, LookOnlyAtWhatHasChanged) {
     DrivenTown town{test_folder() / "roads.gpkg"};
     std::size_t looked_at = 0;
-    auto query = query_of({});
-    query.tests.emplace_back([&](const Feature& /*feature*/) {
-        ++looked_at;
-        return true;
-    });
+    const auto query = query_that_counts(looked_at);
     SegmentSelections selections;
     const auto before = selections.keys(town.store, "a", query);
     const auto of_all = std::exchange(looked_at, 0);
@@ -141,11 +147,7 @@ TEST(SegmentSelections, LookOnlyAtWhatHasChanged) {
 TEST(SegmentSelections, AreReadyForAVersionIfTheyWereAskedOfTheOneBefore) {
     DrivenTown town{test_folder() / "roads.gpkg"};
     std::size_t looked_at = 0;
-    auto query = query_of({});
-    query.tests.emplace_back([&](const Feature& /*feature*/) {
-        ++looked_at;
-        return true;
-    });
+    const auto query = query_that_counts(looked_at);
     SegmentSelections selections;
     selections.keys(town.store, "a", query);
     town.drive_somewhere();
