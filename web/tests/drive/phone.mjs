@@ -70,6 +70,7 @@ export const tap = (page, name) => page.getByRole('button', { name }).first().cl
 export async function getReady(page) {
   await tap(page, 'Understood');
   await tap(page, 'Keep');
+  await page.getByRole('button', { name: 'Start trip' }).waitFor(); // by now the car is on the phone's disk
 }
 
 export async function start(page) {

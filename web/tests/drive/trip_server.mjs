@@ -100,6 +100,7 @@ export async function serveTrips(folder, { invitations = [] } = {}) {
     });
   });
   await new Promise((ready) => { server.listen(0, '127.0.0.1', ready); });
+  server.unref(); // a test that fails before it closes the server must not keep the process
   return {
     url: `http://127.0.0.1:${server.address().port}/drive/`, trips, owners, fates, tokens, spent, asked, sentTypes, mood,
     close: () => { server.closeAllConnections(); server.close(); },

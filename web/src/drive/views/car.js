@@ -36,10 +36,7 @@ export async function carView({ store, begin }) {
       refuse(parsed.wrong, parsed.range);
       return;
     }
-    await store.setSetting('car', parsed.car);
-    if (!hasVehicle || other.checked) {
-      await store.setSetting('vehicle_id', randomName('web-', 8));
-    }
+    await store.setSettings({ car: parsed.car, ...(hasVehicle && !other.checked ? {} : { vehicle_id: randomName('web-', 8) }) });
     await begin();
   };
   return [
