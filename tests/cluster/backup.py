@@ -9,7 +9,7 @@ import time
 import psycopg2
 
 from ledger import hash_of, store
-from nodes import programs
+from nodes import ARCHIVE_PUSH, programs
 from processes import send, tree
 
 RESTORED_PORT = 15433
@@ -57,7 +57,7 @@ class Backup:
             self.process = subprocess.Popen(
                 node.as_user([str(programs() / "postgres"), "-D", str(data),
                               *(word for name, value in settings.items() for word in ("-c", f"{name}={value}"))]),
-                stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd="/", env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8"})
+                stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd="/", env=node.environment())
         for _ in range(240):
             try:
                 connection = self.connect("postgres", "postgres")
@@ -83,12 +83,50 @@ class Backup:
         send(tree([self.process.pid]), signal.SIGKILL)
 
 
+def is_refused(node, *command):
+    """Whether pgBackRest has the file of WAL with other content."""
+    try:
+        node.run(*command)
+    except RuntimeError as error:
+        if "[045]" not in str(error):
+            raise
+        return True
+    return False
+
+
+def archive_goes_on(trial, backup):
+    """A rewound server holds a segment of an ended timeline that another one archived with another end."""
+    trial.cluster.control("switchover", "--leader", trial.cluster.awaited_primary().name, "--force")
+    trial.cluster.wait_until_whole(120)
+    primary = trial.cluster.awaited_primary()
+    wal = primary.data / "pg_wal"
+    history = max(wal.glob("*.history"))
+    ended, fork, *_ = [line.split() for line in history.read_text().splitlines() if line][-1]
+    log, place = (int(digits, 16) for digits in fork.split("/"))
+    segment = wal / f"{int(ended):08X}{log:08X}{place >> 24:08X}"
+    content = max(wal.glob(f"{history.stem}????????????????")).read_bytes()
+    apart = trial.cluster.folder / "apart"
+    apart.mkdir(exist_ok=True)
+    other = apart / segment.name
+    other.write_bytes(content[:-1] + b"1")
+    is_refused(primary, "pgbackrest", "--stanza=macadam", "archive-push", str(other))  # or another is there already
+    other.write_bytes(content[:-1] + b"2")
+    (apart / history.name).write_text(history.read_text().replace(fork, f"{log + 1:X}/0"))
+    trial.expect(is_refused(primary, "sh", str(ARCHIVE_PUSH), str(other)),
+                 "a segment that two servers wrote in one timeline is not archived")
+    mark = wal / "archive_status" / f"{segment.name}.ready"
+    mark.with_suffix(".done").unlink(missing_ok=True)
+    shutil.copy(other, segment)
+    mark.touch()
+    backup.finish_wal()
+    trial.expect(not mark.exists(), "the archive goes on past a segment beyond the end of its timeline, which another server archived")
+
+
 def restored_to_a_moment(trial, templates):
     """The digest is that of the moment, and who was forgotten later is forgotten again."""
     backup = Backup(trial.cluster)
-    primary = trial.cluster.awaited_primary()
-    primary.leave_out_of_archive_what_others_archived()
-    primary.pgbackrest("--type=full", "backup")
+    archive_goes_on(trial, backup)
+    trial.cluster.awaited_primary().pgbackrest("--type=full", "backup")
     trial.say("backup taken")
     first = 1_000_000  # trips that nobody else stores
     connection = trial.cluster.connect("ledger")

@@ -2,11 +2,11 @@
 
     cluster.py up FOLDER                      starts them and tells their address
     cluster.py down FOLDER                    ends them
-    cluster.py test FOLDER PROGRAM [--minutes N] [--seed N] [--no-stall-limit]
+    cluster.py test FOLDER PROGRAM [--minutes N] [--clusters N] [--seed N] [--no-stall-limit]
         has clients and workers store trips while servers are killed, frozen, cut off, switched over and run
         out of disk; then holds what was acknowledged against the ledger, and the digest against that of a
-        replay into a file; for a fifth of the time, does the same with a cell on another such cluster; then
-        does without synchronous commits, and expects to lose trips. Status 0 if all is as it should be.
+        replay into a file; for a fifth of the time, does the same with cells on other such clusters, N with the
+        first one (4); then does without synchronous commits, and expects to lose trips. Status 0 if all is as it should be.
 
 All processes live in a namespace of their own, where the kernel lets an ordinary user have one, and end
 with it, even if it is killed.
@@ -131,6 +131,7 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("program", nargs="?")
     parser.add_argument("--minutes", type=float, default=20)
+    parser.add_argument("--clusters", type=int, default=4, choices=range(2, 5))
     parser.add_argument("--seed", type=int)
     parser.add_argument("--no-stall-limit", action="store_true")
     arguments = parser.parse_args()

@@ -14,9 +14,9 @@ IMPORT_S = 120  # a frozen primary holds an import up until it goes on
 class Imports:
     """`macadam import` of one log at a time, each again and again, into a database on the cluster."""
 
-    def __init__(self, trial, database):
-        self.trial, self.address = trial, trial.new_database(database)
-        self.logs = Logs(trial, database)
+    def __init__(self, trial, database, fleet):
+        self.trial, self.address = trial, trial.new_database(database, fleet)
+        self.logs = Logs(trial, database, fleet)
         self.acknowledged, self.failures, self.answers = set(), 0, 0
         self.is_over = threading.Event()
         self.thread = threading.Thread(target=self._run, daemon=True)

@@ -5,21 +5,21 @@ import re
 
 
 class Logs:
-    """The shortest trip of the fleet under many names, which make it as many trips, in a folder of their own."""
+    """The trips of a fleet under many names, which make them as many trips, in a folder of their own."""
 
-    def __init__(self, trial, name):
-        self.trial, self.name = trial, name
+    def __init__(self, trial, name, fleet):
+        self.trial, self.name, self.fleet = trial, name, fleet
         self.folder = trial.folder / f"{name}-logs"
         self.folder.mkdir(exist_ok=True)
-        shortest = min((trial.folder / "fleet" / "trips").glob("*.gz"), key=lambda file: file.stat().st_size)
-        self.text = gzip.decompress(shortest.read_bytes())
+        self.texts = [gzip.decompress(file.read_bytes()) for file in fleet.logs]
         self.files = {}  # by trip_id
 
     def copy(self, number):
         """Trip with this number. Returns its trip_id and its file."""
         trip_id = f"copy-{number}"
         if trip_id not in self.files:
-            named = re.sub(rb"(?m)^# trip_id: .*$", f"# trip_id: {trip_id}".encode(), self.text, count=1)
+            named = re.sub(rb"(?m)^# trip_id: .*$", f"# trip_id: {trip_id}".encode(),
+                           self.texts[number % len(self.texts)], count=1)
             self.files[trip_id] = self.folder / f"{trip_id}.trip.csv.gz"
             self.files[trip_id].write_bytes(gzip.compress(named, 1, mtime=0))
         return trip_id, self.files[trip_id]
@@ -47,6 +47,6 @@ class Logs:
         return wrong
 
     def digest_of_file(self, logs):
-        file = self.trial.new_file(f"{self.name}-replay")
+        file = self.trial.new_file(f"{self.name}-replay", self.fleet)
         self.trial.macadam("import", str(file), *logs, "--quiet")
         return self.trial.macadam("info", str(file), "--digest").strip()

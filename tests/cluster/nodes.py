@@ -7,8 +7,8 @@ that cables can be cut and disks be filled; elsewhere it has an address of the l
 import json
 import os
 import pathlib
-import re
 import secrets
+import shlex
 import shutil
 import signal
 import subprocess
@@ -24,6 +24,7 @@ from processes import pid_in, run, send, tree
 NAMES = ("n1", "n2", "n3")
 DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
 STANZA = "macadam"
+ARCHIVE_PUSH = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "archive_push.sh"
 TTL_S = 20  # the shortest that Patroni's manual allows
 DISK_MIB = 1000
 WAL_KEPT_MIB = 64
@@ -84,7 +85,6 @@ class Node:
         """Patroni's configuration: docs/cluster.md explains it."""
         passwords = self.cluster.passwords
         hosts = [node.address for node in self.cluster.nodes]
-        backups = f"pgbackrest --config={self.backups} --stanza={STANZA}"
         network = "10.77.0.0/24" if self.cluster.isolated else "127.0.0.0/8"
         return {
             "scope": "macadam",
@@ -138,9 +138,9 @@ class Node:
                     "replication": {"username": "replicator", "password": passwords["replicator"]},
                     "rewind": {"username": "rewinder", "password": passwords["rewinder"]},
                 },
-                "recovery_conf": {"restore_command": f"{backups} archive-get %f %p"},
+                "recovery_conf": {"restore_command": f"pgbackrest --stanza={STANZA} archive-get %f %p"},
                 "parameters": {
-                    "archive_command": f"{backups} archive-push %p",
+                    "archive_command": f"sh {shlex.quote(str(ARCHIVE_PUSH))} %p",
                     "unix_socket_directories": str(self.folder),
                     "password_encryption": "scram-sha-256",
                     "shared_buffers": "48MB",
@@ -177,28 +177,23 @@ class Node:
         command = ["unshare", "-U", "--map-user=1000", "--map-group=1000", "--", *command]
         return ["nsenter", "-t", str(self.holder.pid), "-n", "--", *command] if self.holder else command
 
-    def leave_out_of_archive_what_others_archived(self):
-        """As docs/cluster.md says: of a timeline that has ended, a server that was rewound may hold a segment other than
-        the one in the archive, and archives no later one before it."""
-        archived = {path.name[:24] for path in (self.cluster.repository / "archive").rglob("*") if path.is_file()}
-        segments = self.data / "pg_wal"
-        timeline = max(path.name[:8] for path in segments.iterdir() if re.fullmatch("[0-9A-F]{24}", path.name))
-        for mark in (segments / "archive_status").glob("*.ready"):
-            if mark.stem[:8] < timeline and mark.stem in archived:
-                mark.rename(mark.with_suffix(".done"))  # PostgreSQL would make a removed one again at the next checkpoint
+    def environment(self, **more):
+        return {"PATH": f"{programs()}:/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8", "HOME": str(self.folder),
+                "PGBACKREST_CONFIG": str(self.backups), **more}
+
+    def run(self, *command):
+        """Runs a command on this server."""
+        return run(*self.as_user(command), env=self.environment(PGPASSFILE=str(self.cluster.folder / "pgpass")), cwd="/",
+                   timeout=300)
 
     def pgbackrest(self, *words):
-        environment = {"PATH": f"{programs()}:/usr/bin:/bin", "PGPASSFILE": str(self.cluster.folder / "pgpass"),
-                       "LC_ALL": "C.UTF-8"}
-        return run(*self.as_user(["pgbackrest", f"--config={self.backups}", f"--stanza={STANZA}", *words]),
-                   env=environment, cwd="/", timeout=300)
+        return self.run("pgbackrest", f"--stanza={STANZA}", *words)
 
     def start(self, program):
         with (self.folder / f"{program}.log").open("ab") as log:
             self.running[program] = subprocess.Popen(
                 self.as_user(self.commands()[program]), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                cwd=self.folder, env={"PATH": f"{programs()}:/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8",
-                                      "HOME": str(self.folder)})
+                cwd=self.folder, env=self.environment())
 
     def supervise(self):
         for program in set(self.commands()) - self.off:

@@ -8,8 +8,9 @@ import subprocess
 import time
 
 from backup import restored_to_a_moment
-from cells import cell_on_another_cluster
+from cells import cells_on_other_clusters
 from file_replay import replay
+from fleets import town
 from imports import Imports
 from ledger import Clients, Templates, breaches
 from nemesis import Nemesis, haunt
@@ -30,7 +31,7 @@ class Trial:
 
     def __init__(self, arguments, isolated):
         self.arguments = arguments
-        self.folder = pathlib.Path(arguments.folder)
+        self.folder = pathlib.Path(arguments.folder) / "trial"
         self.cluster = Cluster(self.folder / "state", isolated)
         self.breaches = []
         self.started = []  # processes that may still run
@@ -67,31 +68,23 @@ class Trial:
         if not holds:
             self.breaches.append(claim)
 
-    def new_file(self, name):
-        """A road database without trips."""
+    def new_file(self, name, fleet):
+        """A database of the fleet's roads without trips."""
         file = self.folder / f"{name}.gpkg"
-        self.macadam("init", str(file), "--network", "fleet/network.osm.pbf")
+        self.macadam("init", str(file), "--network", fleet.network)
         return file
 
-    def new_database(self, name):
+    def new_database(self, name, fleet):
         """The same on the cluster. Returns its address."""
         self.cluster.new_database(name)
-        self.macadam("init", self.cluster.address(name), "--network", "fleet/network.osm.pbf")
+        self.macadam("init", self.cluster.address(name), "--network", fleet.network)
         return self.cluster.address(name)
 
     def simulate_trips(self):
         """A small fleet, whose drives the clients send again and again."""
-        sample = pathlib.Path(__file__).parents[2] / "sample_data" / "fleet"
-        for old in self.folder.glob("*.gpkg*"):
-            old.unlink()
-        for old in ("fleet", "tmp", *(old.name for old in self.folder.glob("*-objects"))):
-            shutil.rmtree(self.folder / old, ignore_errors=True)
-        (self.folder / "tmp").mkdir()
-        recipe = (sample / "recipe.toml").read_text().replace("count = 30", "count = 3").replace("[6, 10]", "[0.8, 1.5]")
-        (self.folder / "recipe.toml").write_text(recipe)
-        self.macadam("simulate", "-o", "fleet", "--network", str(sample / "network.osm.pbf"), "--recipe", "recipe.toml")
-        roads = self.new_file("roads")
-        self.macadam("import", str(roads), "fleet/trips")
+        self.fleet = town(self)
+        roads = self.new_file("roads", self.fleet)
+        self.macadam("import", str(roads), *map(str, self.fleet.logs))
         return roads
 
     def new_ledger(self, database, roads):
@@ -123,13 +116,13 @@ class Trial:
 
     def fuse(self, database):
         """Imports one more trip, the same for all, and fuses all that waits."""
-        self.macadam("import", database, str(min((self.folder / "fleet" / "trips").iterdir())), "--quiet")
+        self.macadam("import", database, str(self.fleet.logs[0]), "--quiet")
 
     def disturbed(self, roads):
         templates = self.new_ledger("ledger", roads)
         clients = Clients(self.cluster, "ledger", templates, self.folder / "history.jsonl", self.arguments.seed)
-        imports = Imports(self, "imports")
-        workers = Workers(self, "queue", pause_s=6)
+        imports = Imports(self, "imports", self.fleet)
+        workers = Workers(self, "queue", self.fleet, pause_s=6)
         nemesis = Nemesis(self.cluster, self.arguments.seed, say)
         clients.start()
         imports.thread.start()
@@ -191,12 +184,14 @@ class Trial:
             + ("servers in namespaces of their own: faults of networks and disks, too" if self.cluster.isolated else
                "this kernel lets ordinary users have no namespaces: no partitions and full disks"))
         try:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            (self.folder / "tmp").mkdir(parents=True)
             roads = self.simulate_trips()
             self.cluster.start()
             say(f"up\n{self.cluster.list()}")
             templates = self.disturbed(roads)
             restored_to_a_moment(self, templates)
-            cell_on_another_cluster(self)
+            cells_on_other_clusters(self)
             self.without_synchronous_commits(roads)
         finally:
             send([process.pid for process in self.started if process.poll() is None], signal.SIGKILL)

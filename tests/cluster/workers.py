@@ -16,10 +16,10 @@ DRAIN_S = 300
 class Workers:
     """A thread that submits logs one after the other, and some that keep a worker each, and kill it now and then."""
 
-    def __init__(self, trial, database, pause_s, count=2):
-        self.trial, self.address = trial, trial.new_database(database)
+    def __init__(self, trial, database, fleet, pause_s, count=2):
+        self.trial, self.address = trial, trial.new_database(database, fleet)
         self.database, self.pause_s = database, pause_s
-        self.logs = Logs(trial, database)
+        self.logs = Logs(trial, database, fleet)
         self.objects = str(trial.folder / f"{database}-objects")
         self.queued = set()  # trip_id of each log whose submission was acknowledged
         self.failures, self.kills, self.ended = 0, 0, 0
