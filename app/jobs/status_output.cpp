@@ -61,11 +61,12 @@ std::string status_text(const WorkStatus& status) {
         text += fmt::format("{:<9} {:>9}\n", name, status.logs.at(name));
     }
     text += fmt::format("\noldest waits for {}; {} finished in the last minute, {} in the last "
-                        "hour ({} passes); {} to be fused\n",
+                        "hour ({} passes); {}{} to be fused\n",
                         lag_text(status.oldest_s),
                         status.finished_in_minute,
                         status.finished_in_hour,
                         status.passes_in_hour,
+                        status.chunks_to_fuse == max_chunks_counted ? "at least " : "",
                         counted(static_cast<std::size_t>(status.chunks_to_fuse), "chunk"));
     text += fmt::format("objects in {}\n", status.objects.value_or("no store so far"));
     text +=

@@ -5,6 +5,8 @@
 #include "storage/text/text.hpp"
 #include "storage/uploads/upload_state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -48,7 +50,10 @@ void add_counts(WorkStatus& status, ServerConnection& server) {
     status.finished_in_minute = integer_in(rates.at(0)[0]);
     status.finished_in_hour = integer_in(rates.at(0)[1]);
     status.passes_in_hour = integer_in(rates.at(0)[2]);
-    status.chunks_to_fuse = server.number("SELECT count(DISTINCT chunk) FROM macadam.chunk_dirty");
+    status.chunks_to_fuse =
+        server.number(fmt::format("SELECT count(*) FROM (SELECT DISTINCT chunk"
+                                  " FROM macadam.chunk_dirty ORDER BY chunk LIMIT {}) AS marked",
+                                  max_chunks_counted));
 }
 
 void add_workers(WorkStatus& status, ServerConnection& server) {

@@ -30,6 +30,9 @@ struct FailedLog {
     std::int64_t finished_ms = 0; ///< ms since 1970 UTC
 };
 
+/// More chunks that wait for fusion are not counted: a country has millions, and servers ask often.
+inline constexpr std::int64_t max_chunks_counted = 100'000;
+
 /// State of the queue of a database at one moment.
 struct WorkStatus {
     std::map<std::string, std::int64_t> logs; ///< by state, all of them
@@ -37,7 +40,7 @@ struct WorkStatus {
     std::int64_t accepted_in_minute = 0, accepted_in_hour = 0; ///< logs submitted first
     std::int64_t finished_in_minute = 0, finished_in_hour = 0; ///< logs
     std::int64_t passes_in_hour = 0;
-    std::int64_t chunks_to_fuse = 0;
+    std::int64_t chunks_to_fuse = 0;    ///< counted up to max_chunks_counted
     std::optional<std::string> objects; ///< location of the object store
     std::vector<WorkerStatus> workers;
     std::vector<FailedLog> failed; ///< the latest parked, then the latest refused
