@@ -5,6 +5,7 @@
 #include "app/parallel/parallel_for.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/jobs/announced_logs.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/objects/object_store.hpp"
 #include "storage/text/json.hpp"
@@ -96,7 +97,7 @@ private:
                 missing.push_back(unique[i]);
             }
         }
-        keep_objects_of(server_, jobs_in(missing));
+        announce_logs(server_, jobs_in(missing));
         for_each(missing, [](SubmittedLog& log, ObjectStore& store) {
             store.put({log.job.sha256, log.job.bytes}, log.file);
         });

@@ -10,6 +10,7 @@
 #include "app/pipeline/results_version.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/atomic/temporary_folder.hpp"
+#include "storage/jobs/announced_logs.hpp"
 #include "storage/jobs/sent_logs.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/objects/object_store.hpp"
@@ -294,12 +295,25 @@ private:
     }
 
     /// Removes logs from the object store that are imported, or of a crowd and worked out, also
-    /// those of killed workers; and from the queue those that have been gone for long.
+    /// those of killed workers, or were never submitted; and from the queue those that have been
+    /// gone for long.
     void erase_done() {
         remove_old_jobs(*queue_, 2 * max_batch);
         for (std::size_t erased = 0; erased < 2 * max_batch && erase_some();) {
             erased += max_erased;
         }
+        erase_unsubmitted();
+    }
+
+    void erase_unsubmitted() {
+        ServerTransaction all{*queue_};
+        const auto logs = end_old_announcements(*queue_, max_erased);
+        call_objects([&] {
+            for (const auto& sha256 : logs) {
+                stores_.front()->remove(sha256);
+            }
+        });
+        all.commit();
     }
 
     /// \returns whether there may be more.

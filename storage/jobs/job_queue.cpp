@@ -28,10 +28,6 @@ std::string array_of(std::span<const Job> jobs, Value value) {
     return "{" + text + "}";
 }
 
-std::string hashes_of(std::span<const Job> jobs) {
-    return array_of(jobs, [](const Job& job) { return job.sha256; });
-}
-
 constexpr const char* removing_old_jobs =
     "DELETE FROM macadam.job WHERE sha256 IN (SELECT sha256 FROM macadam.job"
     " WHERE finished_at < now() - interval '400 days' AND NOT has_object"
@@ -142,6 +138,10 @@ constexpr const char* queued_again = "state = 'queued', attempts = 0, reason = '
 
 } // namespace
 
+std::string hashes_of(std::span<const Job> jobs) {
+    return array_of(jobs, [](const Job& job) { return job.sha256; });
+}
+
 std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
                                                        std::span<const Job> logs) {
     const auto known = known_states(server, logs, "");
@@ -151,14 +151,6 @@ std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
         states.push_back(found == known.end() ? std::nullopt : std::optional{found->second});
     }
     return states;
-}
-
-void keep_objects_of(ServerConnection& server, std::span<const Job> logs) {
-    server.rows("WITH done AS (SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
-                " AND state IN ('outside', 'refused') ORDER BY sha256 FOR UPDATE)"
-                " UPDATE macadam.job SET has_object = true, not_before = now() + interval '1 day'"
-                " FROM done WHERE job.sha256 = done.sha256",
-                {hashes_of(logs)});
 }
 
 std::vector<Submission> submit_logs(ServerConnection& server,
@@ -188,6 +180,7 @@ std::vector<Submission> submit_logs(ServerConnection& server,
                             " AND state IN ('outside', 'refused', 'parked')",
                             queued_again),
                 {hashes_of(logs)});
+    server.rows("DELETE FROM macadam.announced_log WHERE sha256 = ANY($1)", {hashes_of(logs)});
     one.commit();
     std::vector<Submission> results;
     for (const auto& log : logs) {

@@ -38,11 +38,11 @@ enum class Submission : std::uint8_t {
 std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
                                                        std::span<const Job> logs);
 
-/// Keeps workers from erasing the objects of logs that are done, for a day: the caller stores them
-/// anew, and submits the logs. Waits for who erases one just now.
-void keep_objects_of(ServerConnection& server, std::span<const Job> logs);
+/// Array of PostgreSQL of the hashes of logs.
+std::string hashes_of(std::span<const Job> jobs);
 
-/// Queues logs whose objects are stored, in one transaction. A standby has them, too, when this
+/// Queues logs whose objects are stored, in one transaction, and ends their announcements
+/// (announced_logs.hpp). A standby has them, too, when this
 /// returns, also those that are known.
 /// \param logs  without repetitions
 /// \param objects  location of their objects; "" = that of the workers, whichever it is

@@ -90,6 +90,18 @@ COMMENT ON COLUMN macadam.job_trip.job IS 'SHA-256 of the log';
 COMMENT ON INDEX macadam.job_trip_job IS 'Trips of a log, which go with it';
 )sql";
 
+constexpr const char* announced_logs = R"sql(
+CREATE TABLE macadam.announced_log (
+    sha256 text PRIMARY KEY,
+    announced_at timestamptz NOT NULL DEFAULT now()
+);
+CREATE INDEX announced_log_at ON macadam.announced_log (announced_at);
+COMMENT ON TABLE macadam.announced_log IS 'Logs that somebody stores just now, or stored and did not submit: workers erase these after a day';
+COMMENT ON COLUMN macadam.announced_log.sha256 IS 'SHA-256 of the bytes of the log, in hex digits: its name in the object store';
+COMMENT ON COLUMN macadam.announced_log.announced_at IS 'When it was announced last';
+COMMENT ON INDEX macadam.announced_log_at IS 'Announced logs by time';
+)sql";
+
 // Finished logs are counted as they finish: who ends jobs adds rows of his own, so that nobody
 // waits for another. The other states are counted by job_open.
 constexpr const char* counts = R"sql(
@@ -144,6 +156,11 @@ std::string job_schema() {
 std::string job_count_schema() {
     return counts + granting("SELECT, INSERT, UPDATE, DELETE ON macadam.job_count",
                              {"macadam_importer", "macadam_operator"});
+}
+
+std::string announced_log_schema() {
+    return announced_logs + granting("SELECT, INSERT, UPDATE, DELETE ON macadam.announced_log",
+                                     {"macadam_importer", "macadam_operator"});
 }
 
 std::string job_trip_schema() {

@@ -13,4 +13,7 @@ std::string job_trip_schema();
 /// Statements of migration 10: counts of logs without reading all that were ever submitted.
 std::string job_count_schema();
 
+/// Statements of migration 13: logs that are stored, and not yet submitted.
+std::string announced_log_schema();
+
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include "app/jobs/job_options.hpp"
 #include "app/serve/trips/token_watch.hpp"
 #include "estimator/common/error.hpp"
+#include "storage/jobs/announced_logs.hpp"
 #include "storage/jobs/sent_logs.hpp"
 #include "storage/jobs/server_tokens.hpp"
 #include "storage/objects/object_store.hpp"
@@ -64,7 +65,7 @@ public:
         file.commit();
         try {
             auto& objects = opened_objects();
-            keep_objects_of(server(), {&job, 1});
+            announce_logs(server(), {&job, 1});
             objects.put({job.sha256, job.bytes}, spooled);
             submit_logs(server(), {&job, 1}, location_, upload.owner);
         } catch (...) {

@@ -12,7 +12,7 @@
 namespace macadam {
 
 /// Number of the last migration that this program knows.
-inline constexpr int server_schema_version = 12;
+inline constexpr int server_schema_version = 13;
 
 /// Creates schema `macadam` with its tables, views, comments, rights and, as far as the role may
 /// create them, roles macadam_reader, macadam_importer and macadam_operator. Runs within the

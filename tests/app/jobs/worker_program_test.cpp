@@ -2,6 +2,8 @@
 
 #include "app/jobs/worker_world.hpp"
 #include "storage/files/sha256.hpp"
+#include "storage/jobs/announced_logs.hpp"
+#include "storage/objects/object_store.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "support/program/piped_program.hpp"
 #include "support/s3/s3_service.hpp"
@@ -79,6 +81,25 @@ TEST(Workers, LeaveNoLogOfATripThatIsForgotten) {
     EXPECT_EQ(files_below(world.objects), 1U);
     EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job"), 1);
     EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job_trip"), 1);
+}
+
+TEST(Workers, EraseALogThatWasStoredAndNotSubmittedForADay) {
+    WorkerWorld world;
+    world.make_trips(1);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    write_file(world.folder / "log", "of somebody");
+    Sha256 hash;
+    hash.add("of somebody");
+    const Job lost{.sha256 = hash.hex(), .suffix = ".trip.csv", .bytes = 11};
+    ServerConnection server{world.address};
+    announce_logs(server, {&lost, 1});
+    open_object_store(world.objects, {}, MissingFolder::refuse)
+        ->put({lost.sha256, lost.bytes}, world.folder / "log");
+    EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0);
+    EXPECT_EQ(files_below(world.objects), 1U); // it may still be submitted
+    server.run("UPDATE macadam.announced_log SET announced_at = now() - interval '25 hours'");
+    EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0);
+    EXPECT_EQ(files_below(world.objects), 0U);
 }
 
 TEST(Workers, TellWhyALogIsRefusedAndTryItAgainWhenItIsSubmittedAgain) {

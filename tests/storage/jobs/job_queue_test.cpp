@@ -2,6 +2,7 @@
 
 #include "storage/jobs/job_queue.hpp"
 
+#include "storage/jobs/announced_logs.hpp"
 #include "storage/jobs/work_status.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/store/rows/known_trips.hpp"
@@ -344,7 +345,7 @@ TEST_F(JobQueue, KeepsTheObjectOfALogThatIsSubmittedAgain) {
     const auto to_erase = [&] { return jobs_to_erase(queue(), 10, ErasedLogs::worked_out); };
     refuse();
     EXPECT_THAT(to_erase(), SizeIs(1));
-    keep_objects_of(queue(), logs(1)); // the submitter stores it now
+    announce_logs(queue(), logs(1)); // the submitter stores it now
     EXPECT_THAT(to_erase(), IsEmpty());
     EXPECT_THAT(submit_logs(queue(), logs(1)), ElementsAre(Submission::requeued));
     refuse();
@@ -355,12 +356,43 @@ TEST_F(JobQueue, KeepsTheObjectOfALogThatIsSubmittedAgain) {
     {
         ServerTransaction erasing{worker};
         note_erased(worker, jobs_to_erase(worker, 10, ErasedLogs::worked_out));
-        EXPECT_THAT(refusal_of([&] { keep_objects_of(queue(), logs(1)); }),
+        EXPECT_THAT(refusal_of([&] { announce_logs(queue(), logs(1)); }),
                     HasSubstr("lock timeout"));
         erasing.commit();
     }
-    keep_objects_of(queue(), logs(1)); // it is stored after it was erased, not before
+    announce_logs(queue(), logs(1)); // it is stored after it was erased, not before
     EXPECT_THAT(to_erase(), IsEmpty());
+}
+
+TEST_F(JobQueue, KnowsWhichLogsWereStoredAndNotSubmittedForADay) {
+    const auto later = [&](const char* interval) {
+        queue().run(fmt::format("UPDATE macadam.announced_log SET announced_at ="
+                                " announced_at - interval '{}'",
+                                interval));
+    };
+    announce_logs(queue(), logs(3));
+    submit_logs(queue(), logs(1));
+    later("23 hours");
+    EXPECT_THAT(end_old_announcements(queue(), 10), IsEmpty());
+    announce_logs(queue(), logs(2)); // the second once more; the first is known
+    later("2 hours");
+    EXPECT_THAT(end_old_announcements(queue(), 10), ElementsAre(logs(3)[2].sha256));
+    later("1 day");
+    EXPECT_THAT(end_old_announcements(queue(), 10), ElementsAre(logs(2)[1].sha256));
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.announced_log"), 0);
+}
+
+TEST_F(JobQueue, LetsALogBeStoredAgainOnceItsObjectIsErasedNotBefore) {
+    announce_logs(queue(), logs(1));
+    queue().run("UPDATE macadam.announced_log SET announced_at = now() - interval '2 days';"
+                "SET lock_timeout = '100 ms'");
+    ServerConnection worker{address_};
+    ServerTransaction erasing{worker};
+    EXPECT_THAT(end_old_announcements(worker, 10), SizeIs(1));
+    EXPECT_THAT(refusal_of([&] { announce_logs(queue(), logs(1)); }), HasSubstr("lock timeout"));
+    erasing.commit();
+    announce_logs(queue(), logs(1));
+    EXPECT_THAT(end_old_announcements(worker, 10), IsEmpty());
 }
 
 TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
@@ -500,6 +532,19 @@ TEST_F(JobQueue, CountsLogsByStateHoweverTheyCameToIt) {
     expect_counts("summed");
 }
 
+TEST_F(JobQueue, CountsChunksThatWaitForFusionUpToALimit) {
+    const auto mark = [&](std::int64_t from, std::int64_t to) {
+        queue().rows("INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms) SELECT chunk, trip, 0"
+                     " FROM generate_series($1::bigint, $2::bigint) AS chunk,"
+                     " generate_series(1, 2) AS trip",
+                     {std::to_string(from), std::to_string(to)});
+        return work_status(queue(), 1).chunks_to_fuse;
+    };
+    EXPECT_EQ(mark(1, 70), 70);
+    EXPECT_EQ(mark(71, max_chunks_counted - 1), max_chunks_counted - 1);
+    EXPECT_EQ(mark(max_chunks_counted, max_chunks_counted + 5), max_chunks_counted);
+}
+
 TEST_F(JobQueue, RefusesWorkersOfOtherResults) {
     begin_worker(queue(), {.taker = anna, .results_version = 1}, false);
     begin_worker(queue(), {.taker = ben, .results_version = 1}, false);
@@ -536,7 +581,8 @@ TEST_F(JobQueue, IsForImportersAndOperatorsAlone) {
 }
 
 TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
-    queue().run("DROP TABLE macadam.job_trip, macadam.job, macadam.job_count, macadam.worker,"
+    queue().run("DROP TABLE macadam.job_trip, macadam.job, macadam.announced_log, "
+                "macadam.job_count, macadam.worker,"
                 " macadam.work_setting, macadam.chunk_change, macadam.published_state,"
                 " macadam.published_until, macadam.published_pending, macadam.published_figure,"
                 " macadam.published_event, macadam.publication;"
@@ -566,10 +612,13 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
 
 TEST_F(JobQueue, IsSearchedByItsIndexes) {
     submit_logs(queue(), logs(2000));
-    queue().run("UPDATE macadam.job SET state = 'imported', finished_at = now() - interval '1 day',"
-                " submitted_at = now() - interval '1 day' WHERE number > 20;"
-                " UPDATE macadam.job SET state = 'refused' WHERE number > 1990;"
-                " ANALYZE macadam.job");
+    queue().run(
+        "UPDATE macadam.job SET state = 'imported', finished_at = now() - interval '1 day',"
+        " submitted_at = now() - interval '1 day' WHERE number > 20;"
+        " UPDATE macadam.job SET state = 'refused' WHERE number > 1990;"
+        " INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms) SELECT chunk, trip, 0 FROM"
+        " generate_series(1, 5000) AS chunk, generate_series(1, 4) AS trip;"
+        " ANALYZE macadam.job, macadam.chunk_dirty");
     const auto expect_plan = [&](const std::string& index, const std::string& query) {
         std::string plan;
         for (const auto& row : queue().rows("EXPLAIN " + query)) {
@@ -600,6 +649,8 @@ TEST_F(JobQueue, IsSearchedByItsIndexes) {
                 " WHERE state IN ('parked', 'refused') ORDER BY state, number DESC LIMIT 20");
     expect_plan("job_submitted",
                 "SELECT count(*) FROM macadam.job WHERE submitted_at > now() - interval '1 hour'");
+    expect_plan("Index Only Scan using chunk_dirty_pkey",
+                "SELECT DISTINCT chunk FROM macadam.chunk_dirty ORDER BY chunk LIMIT 1000");
 }
 
 } // namespace
