@@ -9,7 +9,7 @@ import time
 import psycopg2
 
 from ledger import hash_of, store
-from nodes import ARCHIVE_PUSH, programs
+from nodes import PGBACKREST_PUSH, programs
 from processes import send, tree
 
 RESTORED_PORT = 15433
@@ -112,7 +112,7 @@ def archive_goes_on(trial, backup):
     is_refused(primary, "pgbackrest", "--stanza=macadam", "archive-push", str(other))  # or another is there already
     other.write_bytes(content[:-1] + b"2")
     (apart / history.name).write_text(history.read_text().replace(fork, f"{log + 1:X}/0"))
-    trial.expect(is_refused(primary, "sh", str(ARCHIVE_PUSH), str(other)),
+    trial.expect(is_refused(primary, "sh", str(PGBACKREST_PUSH), str(other)),
                  "a segment that two servers wrote in one timeline is not archived")
     mark = wal / "archive_status" / f"{segment.name}.ready"
     mark.with_suffix(".done").unlink(missing_ok=True)

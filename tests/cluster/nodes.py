@@ -24,7 +24,7 @@ from processes import pid_in, run, send, tree
 NAMES = ("n1", "n2", "n3")
 DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
 STANZA = "macadam"
-ARCHIVE_PUSH = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "archive_push.sh"
+PGBACKREST_PUSH = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "pgbackrest_push.sh"
 TTL_S = 20  # the shortest that Patroni's manual allows
 DISK_MIB = 1000
 WAL_KEPT_MIB = 64
@@ -140,7 +140,7 @@ class Node:
                 },
                 "recovery_conf": {"restore_command": f"pgbackrest --stanza={STANZA} archive-get %f %p"},
                 "parameters": {
-                    "archive_command": f"sh {shlex.quote(str(ARCHIVE_PUSH))} %p",
+                    "archive_command": f"sh {shlex.quote(str(PGBACKREST_PUSH))} %p",
                     "unix_socket_directories": str(self.folder),
                     "password_encryption": "scram-sha-256",
                     "shared_buffers": "48MB",

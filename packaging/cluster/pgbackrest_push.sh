@@ -1,7 +1,7 @@
 #!/bin/sh
 # Archives a file of WAL with pgBackRest, stanza macadam: archive_command of a cluster's servers (docs/cluster.md).
 #
-#     archive_command: '/usr/local/bin/macadam-archive-push %p'
+#     archive_command: '/usr/local/bin/macadam-pgbackrest-push %p'   # pgBackRest insists on its name in it
 #
 # After a failure a server may hold a segment of a timeline that has ended, while the archive has it of another server, with
 # another end. pgBackRest refuses such a one (exit 45), PostgreSQL repeats it for ever and archives nothing behind it. If the
@@ -27,4 +27,4 @@ while read -r ended fork _; do
     [ "$ended" = "$timeline" ] || continue
     [ "$end" -gt $((0x${fork%/*} * 4294967296 + 0x${fork#*/})) ] || exit 45
 done <"$history"
-echo "archive_push: $name, archived with another end, lies beyond the end of its timeline by ${history##*/}: left out" >&2
+echo "pgbackrest_push: $name, archived with another end, lies beyond the end of its timeline by ${history##*/}: left out" >&2
