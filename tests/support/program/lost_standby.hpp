@@ -36,6 +36,19 @@ inline void lose_standby(const std::string& boss) {
     }
 }
 
+/// Calls a function, and meanwhile cancels each commit of the server that waits for its standby.
+/// \returns what the function returns.
+template <typename Call>
+auto while_waits_are_cancelled(const std::string& boss, Call call) {
+    ServerConnection server{boss};
+    auto called = std::async(std::launch::async, call);
+    while (called.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
+        server.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " +
+                      waits_for_standby);
+    }
+    return called.get();
+}
+
 /// The opposite: commits that wait go on, sooner or later.
 inline void need_no_standby(const std::string& boss) {
     ServerConnection server{boss};

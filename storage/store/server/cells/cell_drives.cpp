@@ -67,6 +67,14 @@ void await_standbys(ServerConnection& front, const std::set<std::int32_t>& cells
            {array_of(cells)});
 }
 
+std::set<std::int32_t> cells_elsewhere(ServerConnection& front) {
+    std::set<std::int32_t> cells;
+    for (const auto cell : front.numbers("SELECT cell FROM macadam.cell_place")) {
+        cells.insert(static_cast<std::int32_t>(cell));
+    }
+    return cells;
+}
+
 bool are_elsewhere(ServerConnection& front, const std::set<std::int32_t>& cells) {
     return has_cells(front) &&
            !front
@@ -124,11 +132,7 @@ void remove_unfinished(ServerConnection& front) {
                                      " WHERE at < now() - interval '10 minutes'"
                                      " ORDER BY trip FOR UPDATE SKIP LOCKED");
     if (!trips.empty()) {
-        std::set<std::int32_t> cells;
-        for (const auto cell : front.numbers("SELECT cell FROM macadam.cell_place")) {
-            cells.insert(static_cast<std::int32_t>(cell));
-        }
-        share_cells(front, cells);
+        share_cells(front, cells_elsewhere(front));
         front.rows("DELETE FROM macadam.drive WHERE trip = ANY($1::bigint[])"
                    " AND NOT EXISTS (SELECT FROM macadam.trip WHERE trip.id = drive.trip)",
                    {array_of(trips)});

@@ -15,6 +15,9 @@ namespace macadam {
 // drives count only if their trip is there. Those of trips that never were are noted by the front
 // beforehand, and removed by the next import.
 
+/// Cells that other servers hold, of a front.
+std::set<std::int32_t> cells_elsewhere(ServerConnection& front);
+
 /// Tests whether other servers hold any of these cells, which the transaction shares.
 bool are_elsewhere(ServerConnection& front, const std::set<std::int32_t>& cells);
 

@@ -1,6 +1,7 @@
 #include "storage/store/server/cells/cell_moves.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/cells/cell_schema.hpp"
 #include "storage/store/server/reader_rights.hpp"
 #include "storage/store/server/server_locks.hpp"
@@ -181,6 +182,7 @@ std::int64_t move_cell(ServerConnection& front, std::int32_t cell, const std::st
     }
     const auto from = has_cells(front) ? server_of(front, cell) : std::nullopt;
     if (from == to) {
+        drop_unused_cell_tables(front); // an earlier move may have been in doubt
         return 0;
     }
     const auto number = next_number(front);
@@ -241,6 +243,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     if (!has_cells(front)) {
         return;
     }
+    await_standbys(front, cells_elsewhere(front)); // else what replaced them may go with a server
     try {
         front.rows("SELECT macadam.drop_cell_tables(name, ARRAY(SELECT number FROM"
                    " macadam.cell_place WHERE server = name)) FROM macadam_cells.address");

@@ -6,6 +6,7 @@
 #include "storage/store/server/copy/store_copy.hpp"
 #include "storage/store/server/importer/server_importer.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
+#include "support/program/lost_standby.hpp"
 #include "support/roads/cell_world.hpp"
 #include "support/roads/edited_network.hpp"
 #include "support/roads/fleet_passes.hpp"
@@ -68,6 +69,30 @@ TEST_F(CellGenerations, SwitchToAGenerationThatIsPreparedEverywhere) {
     }
     import(6, 8);
     import_border_trips(file, 6, 8);
+    EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(CellGenerations, AreInDoubtUntilTheStandbyOfEachServerHasThem) {
+    import(0, 3);
+    spread();
+    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+    import_border_trips(file, 0, 3);
+    const auto maintain = [](RoadStore store) {
+        store.maintenance.set_valid_from({{1, true, 2}, {6, true, 5}}, 1'765'000'000'000, {});
+    };
+    const auto boss = east_server_.address("east");
+    lose_standby(boss);
+    EXPECT_THAT(
+        while_waits_are_cancelled(boss,
+                                  [&] {
+                                      return refusal_of([&] {
+                                          maintain(RoadStore{open_server_replica(front_, {}, {})});
+                                      });
+                                  }),
+        HasSubstr("a server of its cells warns"));
+    need_no_standby(boss);
+    maintain(RoadStore{open_server_replica(front_, {}, {})}); // again, as it was asked for
+    maintain(file);
     EXPECT_EQ(digest(), file.digest());
 }
 

@@ -236,15 +236,10 @@ TEST_F(Cells, SayThatATripIsInDoubtUntilTheStandbyOfACellHasIt) {
 TEST_F(Cells, GetNoDrivesBeforeTheStandbyOfTheFrontHasTheirNote) {
     move(3, east_);
     const auto open = open_server_import(front_);
-    ServerConnection boss{boss_};
     lose_standby(boss_);
-    auto first = std::async(std::launch::async,
-                            [&] { return refusal_of([&] { add_border_trip(*open.trips, 0); }); });
-    while (first.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
-        boss.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " +
-                    waits_for_standby);
-    }
-    EXPECT_THAT(first.get(), HasSubstr("in doubt until its standby has it"));
+    EXPECT_THAT(while_waits_are_cancelled(
+                    boss_, [&] { return refusal_of([&] { add_border_trip(*open.trips, 0); }); }),
+                HasSubstr("in doubt until its standby has it"));
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.drive"), 0);
     need_no_standby(boss_);
     EXPECT_TRUE(add_border_trip(*open.trips, 0));
@@ -257,22 +252,38 @@ TEST_F(Cells, FuseAgainWhatTheStandbyOfACellMayLack) {
     const auto open = open_server_import(front_);
     EXPECT_TRUE(add_border_trip(*open.trips, 0));
     const auto boss = east_server_.address("east");
-    ServerConnection east{boss};
     lose_standby(boss);
-    auto fused =
-        std::async(std::launch::async, [&] { return refusal_of([&] { fuse_all(*open.trips); }); });
-    while (fused.wait_for(std::chrono::milliseconds{10}) == std::future_status::timeout) {
-        east.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity WHERE " +
-                    waits_for_standby);
-    }
     EXPECT_THAT(
-        fused.get(),
+        while_waits_are_cancelled(boss, [&] { return refusal_of([&] { fuse_all(*open.trips); }); }),
         AllOf(HasSubstr("a server of its cells warns"), HasSubstr("run the command again")));
     EXPECT_GT(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
     need_no_standby(boss);
     fuse_all(*open.trips);
     EXPECT_EQ(number(front_, "SELECT count(*) FROM macadam.chunk_dirty"), 0);
     EXPECT_EQ(digest(), digest_of_file(1));
+}
+
+TEST_F(Cells, StayWhereTheyWereUntilTheStandbyOfTheirNewServerHasThem) {
+    import(0, 2);
+    move(0, west_);
+    move(1, east_); // the server is known by now
+    const auto before = digest();
+    const auto left = [&] {
+        return number(west_,
+                      "SELECT count(*) FROM pg_class WHERE relkind = 'r' AND relname ~"
+                      " '^drive_\\d+_\\d+$'");
+    };
+    const auto boss = east_server_.address("east");
+    lose_standby(boss);
+    EXPECT_THAT(
+        while_waits_are_cancelled(boss, [&] { return refusal_of([&] { move(0, east_); }); }),
+        AllOf(HasSubstr("a server of its cells warns"), HasSubstr("run the command again")));
+    EXPECT_EQ(left(), 1);
+    EXPECT_EQ(digest(), before);
+    need_no_standby(boss);
+    EXPECT_EQ(move(0, east_), 0);
+    EXPECT_EQ(left(), 0);
+    EXPECT_EQ(digest(), before);
 }
 
 TEST_F(Cells, FuseOnAFrontOfAnEarlierVersionToo) {
