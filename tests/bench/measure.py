@@ -394,13 +394,13 @@ def on_server(program, *words):
 def writers(build):
     """Trips stored by up to four writers."""
     return "Trips of 500 passes on some 90 chunks, with traces, each in a transaction that is synced; beside them the same rows in a " + \
-        "COPY into a table without keys (tests/bench/server_writers.cpp); medians of three rounds, in turns.\n\n" + \
+        "COPY into a table without keys (tests/bench/server/server_writers.cpp); medians of three rounds, in turns.\n\n" + \
         on_server(build / "tests" / "bench" / "server_writers")
 
 
 def growth(build, side):
     """What a database costs while its passes double."""
-    return "Trips as above, by four writers, until each segment has 20 passes (tests/bench/server_growth.cpp). At each doubling what " + \
+    return "Trips as above, by four writers, until each segment has 20 passes (tests/bench/server/server_growth.cpp). At each doubling what " + \
         "waits is fused for 20 s by one connection, and squares of 1 km are read as `query --bbox` does.\n\n" + \
         on_server(build / "tests" / "bench" / "server_growth", side)
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/newson_krumm.hpp"
+#include "bench/match/newson_krumm.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "simulated_drive.hpp"
 

@@ -1,7 +1,7 @@
 // Scores matching on recorded trips whose driven arcs are known: the set of Kubicka et al., beside
 // the plain method of Newson and Krumm.
 
-#include "bench/newson_krumm.hpp"
+#include "bench/match/newson_krumm.hpp"
 #include "deleted_edges.hpp"
 #include "estimator/common/error.hpp"
 #include "estimator/motion/make_odometer.hpp"

@@ -1,7 +1,7 @@
 // What matching costs on a network of millions of edges: the same trips on one copy of some roads
 // and on many copies side by side, long trips, and the plain method of Newson and Krumm.
 
-#include "bench/newson_krumm.hpp"
+#include "bench/match/newson_krumm.hpp"
 #include "estimator/common/error.hpp"
 #include "goal.hpp"
 #include "mapping/network/build_network.hpp"

@@ -14,7 +14,7 @@
 #include "storage/store/server/importer/server_importer.hpp"
 #include "storage/store/server/reader/server_reader.hpp"
 
-#include "bench/server_trips.hpp"
+#include "bench/server/server_trips.hpp"
 #include "support/roads/town.hpp"
 
 #include <fmt/format.h>

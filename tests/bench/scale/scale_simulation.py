@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+DOCS = Path(__file__).resolve().parents[3] / "docs"
 HOUR, DAY, WEEK = 3600.0, 86400.0, 7 * 86400.0
 
 # Road transport by hour and, from Monday, by day: Denier van der Gon et al., Description of current temporal emission patterns

@@ -1,4 +1,4 @@
-#include "newson_krumm.hpp"
+#include "bench/match/newson_krumm.hpp"
 
 #include <algorithm>
 #include <cmath>
