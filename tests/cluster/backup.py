@@ -104,7 +104,11 @@ def archive_goes_on(trial, backup):
     ended, fork, *_ = [line.split() for line in history.read_text().splitlines() if line][-1]
     log, place = (int(digits, 16) for digits in fork.split("/"))
     segment = wal / f"{int(ended):08X}{log:08X}{place >> 24:08X}"
-    content = max(wal.glob(f"{history.stem}????????????????")).read_bytes()
+    connection = trial.cluster.connect("postgres", "postgres")
+    with connection.cursor() as cursor:
+        cursor.execute("SELECT pg_walfile_name(pg_current_wal_lsn())")
+        content = (wal / cursor.fetchone()[0]).read_bytes()
+    connection.close()
     apart = trial.cluster.folder / "apart"
     apart.mkdir(exist_ok=True)
     other = apart / segment.name
