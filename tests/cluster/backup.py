@@ -34,13 +34,14 @@ class Backup:
         with connection.cursor() as cursor:
             cursor.execute("SELECT pg_walfile_name(pg_switch_wal())")
             name = cursor.fetchone()[0]
-            for _ in range(240):
-                cursor.execute("SELECT coalesce(last_archived_wal >= %s, false) FROM pg_stat_archiver", (name,))
-                if cursor.fetchone()[0]:
-                    connection.close()
-                    return
-                time.sleep(0.25)
-        raise RuntimeError(f"WAL {name} was not archived in a minute")
+        connection.close()
+        marks = self.cluster.awaited_primary().data / "pg_wal" / "archive_status"
+        for _ in range(240):
+            waiting = sorted(mark.stem for mark in marks.glob("*.ready"))
+            if name not in waiting and not any(one[:8] < name[:8] for one in waiting):
+                return
+            time.sleep(0.25)
+        raise RuntimeError(f"WAL was not archived in a minute: {waiting}")
 
     def restore(self, moment):
         """Starts a server, apart from the cluster, with the database of a moment."""

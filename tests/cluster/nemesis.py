@@ -20,7 +20,7 @@ class Nemesis:
         self.cluster, self.say = cluster, say
         self.random = random.Random(seed)
         self.hand = []
-        self.done = []  # (fault, begin, end)
+        self.done = []  # (fault, begin, end, whether the cluster was whole before)
 
     def faults(self):
         everywhere = [self.kill_postgres, self.kill_postgres_and_patroni, self.switch_primary_off, self.switch_standby_off,
@@ -40,13 +40,23 @@ class Nemesis:
 
     def run(self, fault, *arguments):
         self.say(f"{fault.__name__.replace('_', ' ')}")
-        self.began = time.monotonic()
+        self.begin()
         fault(*arguments)
-        self.done.append((fault.__name__, self.began, time.monotonic()))
+        self.done.append((fault.__name__, self.began, time.monotonic(), self.was_whole))
+
+    def begin(self):
+        """Until now, the fault before went on."""
+        self.was_whole = self.cluster.is_whole()
+        self.began = time.monotonic()
+
+    def last_touched(self):
+        """Times since when nobody touched anything. A fault that comes before the last one is over may leave nobody who could
+        take over: then these are its end, too."""
+        return [begin for _, begin, _, _ in self.done] + [end for _, _, end, was_whole in self.done if not was_whole]
 
     def primary(self):
         node = self.cluster.awaited_primary()
-        self.began = time.monotonic()  # until now the fault before went on
+        self.begin()
         return node
 
     def standby(self, synchronous):
@@ -56,7 +66,7 @@ class Nemesis:
             except psycopg2.Error:
                 following = []  # there is no primary that could tell
             if following:
-                self.began = time.monotonic()  # until now the fault before went on
+                self.begin()
                 names = waited_for if synchronous and waited_for else sorted(following)
                 return self.cluster.nodes[NAMES.index(self.random.choice(names))]
             time.sleep(0.5)

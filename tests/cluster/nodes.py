@@ -355,16 +355,20 @@ class Cluster:
         roles = {name: member["role"] for name, member in self.members().items() if name in following}
         return list(roles), [name for name, role in roles.items() if role == "sync_standby"]
 
+    def is_whole(self):
+        """Whether both standbys stream and one of them is waited for: another may take over then."""
+        try:
+            following, waited_for = self.standbys()
+        except psycopg2.Error:
+            return False
+        return len(following) == 2 and bool(waited_for or not self.synchronous)
+
     def wait_until_whole(self, deadline_s):
-        """Waits until both standbys stream and one of them is waited for. Returns the seconds."""
+        """Returns the seconds."""
         began = time.monotonic()
         while True:
-            try:
-                following, waited_for = self.standbys()
-                if len(following) == 2 and (waited_for or not self.synchronous):
-                    return time.monotonic() - began
-            except psycopg2.Error:
-                pass
+            if self.is_whole():
+                return time.monotonic() - began
             if time.monotonic() - began > deadline_s:
                 raise RuntimeError(f"the cluster is not whole after {deadline_s} s:\n{self.list()}\n"
                                    f"its logs are below {self.folder}")

@@ -137,12 +137,12 @@ class Trial:
         connection = self.cluster.connect("ledger")
         wrong, found = breaches(connection, clients)
         connection.close()
-        stall = clients.longest_stall_s([begin for _, begin, _ in nemesis.done])
-        kinds = {name for name, _, _ in nemesis.done}
+        stall = clients.longest_stall_s(nemesis.last_touched())
+        kinds = {name for name, _, _, _ in nemesis.done}
         say(f"{len(nemesis.done)} faults of {len(kinds)} kinds; {len(clients.meant)} trips meant,"
             f" {len(clients.acknowledged)} acknowledged, {len(found)} in the ledger, {clients.failures} tries failed,"
-            f" {clients.doubts} commits in doubt; longest stall {stall:.1f} s after a fault,"
-            f" {clients.longest_stall_s():.1f} s over several")
+            f" {clients.doubts} commits in doubt; longest stall {stall:.1f} s, {clients.longest_stall_s():.1f} s over several"
+            f" faults, {sum(not was_whole for _, _, _, was_whole in nemesis.done)} of which came before the one before was over")
         for words in wrong[:10]:
             say(f"  {words}")
         self.expect(len(clients.acknowledged) > 20 * self.arguments.minutes, "the clients got trips stored")
