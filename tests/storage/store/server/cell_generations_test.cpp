@@ -78,7 +78,8 @@ TEST_F(CellGenerations, AreInDoubtUntilTheStandbyOfEachServerHasThem) {
     auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
     import_border_trips(file, 0, 3);
     const auto maintain = [](RoadStore store) {
-        store.maintenance.set_valid_from({{1, true, 2}, {6, true, 5}}, 1'765'000'000'000, {});
+        store.maintenance.set_valid_from(
+            std::vector<SegmentKey>{{1, true, 2}, {6, true, 5}}, 1'765'000'000'000, {});
     };
     const auto boss = east_server_.address("east");
     lose_standby(boss);
