@@ -48,6 +48,25 @@ BEGIN
 END $$
 )sql";
 
+/// Removes tables of cells that moved away from here. They are not partitions, whose names end with
+/// the cell.
+constexpr const char* drop_left_tables = R"sql(
+DO $$
+DECLARE
+    leaving text;
+BEGIN
+    SET LOCAL lock_timeout = '2s';
+    FOR leaving IN SELECT relname FROM pg_class WHERE relnamespace = 'macadam'::regnamespace
+                   AND relkind = 'r' AND relname ~ '^(drive|segment_state)_\d+_\d+$' LOOP
+        BEGIN
+            EXECUTE format('DROP TABLE macadam.%I', leaving);
+        EXCEPTION WHEN lock_not_available THEN
+            NULL; -- read at the moment: next time
+        END;
+    END LOOP;
+END $$
+)sql";
+
 std::int64_t next_number(ServerConnection& front) {
     return front.number("SELECT nextval('macadam.cell_number')");
 }
@@ -106,21 +125,27 @@ public:
         return rows;
     }
 
-    /// Puts the new tables in the places of the present ones. \param was_elsewhere  of these
+    /// Puts the new tables in the places of the present ones, of which those here stay until
+    /// drop_unused_cell_tables(). \param was_elsewhere  of the present ones
     void replace(bool was_elsewhere) {
+        const auto left = next_number(*front_);
         front_->run("LOCK TABLE ONLY macadam.drive IN ACCESS EXCLUSIVE MODE;"
                     "LOCK TABLE ONLY macadam.segment_state IN ACCESS EXCLUSIVE MODE");
         for (const auto* const table : moved_tables) {
-            front_->run(fmt::format("ALTER TABLE macadam.{0} DETACH PARTITION macadam.{1};"
-                                    "DROP {2} macadam.{1};"
-                                    "ALTER TABLE macadam.{3} RENAME TO {1};"
-                                    "ALTER TABLE macadam.{0} ATTACH PARTITION macadam.{1}"
-                                    " FOR VALUES IN ({4})",
-                                    table,
-                                    present(table),
-                                    was_elsewhere ? "FOREIGN TABLE" : "TABLE",
-                                    next(table),
-                                    cell_));
+            front_->run(fmt::format(
+                "ALTER TABLE macadam.{0} DETACH PARTITION macadam.{1};"
+                "{2};"
+                "ALTER TABLE macadam.{3} RENAME TO {1};"
+                "ALTER TABLE macadam.{0} ATTACH PARTITION macadam.{1}"
+                " FOR VALUES IN ({4})",
+                table,
+                present(table),
+                was_elsewhere ? fmt::format("DROP FOREIGN TABLE macadam.{}", present(table))
+                              : fmt::format("ALTER TABLE macadam.{} RENAME TO {}",
+                                            present(table),
+                                            cell_table(table, cell_, left)),
+                next(table),
+                cell_));
         }
     }
 
@@ -247,6 +272,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     try {
         front.rows("SELECT macadam.drop_cell_tables(name, ARRAY(SELECT number FROM"
                    " macadam.cell_place WHERE server = name)) FROM macadam_cells.address");
+        front.run(drop_left_tables);
     } catch (const InputError& error) {
         throw ServerTrouble{fmt::format("{}; replaced rows are still there, and are removed by "
                                         "the next command of this kind",

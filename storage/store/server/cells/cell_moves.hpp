@@ -42,9 +42,9 @@ std::vector<NextCellTables> prepare_cells(ServerConnection& front);
 /// \throws InputError  after 40 attempts.
 void switch_cells(ServerConnection& front, const std::vector<NextCellTables>& next);
 
-/// Removes tables on other servers that the front does not use: replaced ones, once the standbys
-/// have what replaced them, and those of work that was interrupted. The role has the places of
-/// cells alone.
+/// Removes tables of cells, here and on other servers, that the front does not use: replaced ones,
+/// once the standbys have what replaced them, and those of work that was interrupted. The role has
+/// the places of cells alone.
 void drop_unused_cell_tables(ServerConnection& front);
 
 } // namespace macadam
