@@ -167,6 +167,13 @@ private:
     std::int64_t number_;
 };
 
+/// Commits on the front, which ends, or throws, as commits before it did that waited for a standby.
+void await_standby_of_front(ServerConnection& front) {
+    ServerTransaction one{front};
+    front.rows("SELECT pg_logical_emit_message(true, 'macadam', '')");
+    one.commit();
+}
+
 void expect_cell(ServerConnection& front, std::int32_t cell) {
     if (front.rows("SELECT FROM macadam.segment WHERE cell = $1 LIMIT 1", {std::to_string(cell)})
             .empty()) {
@@ -268,6 +275,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     if (!has_cells(front)) {
         return;
     }
+    await_standby_of_front(front);
     await_standbys(front, cells_elsewhere(front)); // else what replaced them may go with a server
     try {
         front.rows("SELECT macadam.drop_cell_tables(name, ARRAY(SELECT number FROM"

@@ -288,6 +288,23 @@ TEST_F(Cells, StayWhereTheyWereUntilTheStandbyOfTheirNewServerHasThem) {
     }
 }
 
+TEST_F(Cells, StayOnOtherServersUntilTheStandbyOfTheFrontHasThem) {
+    import(0, 2);
+    move(0, east_);
+    const auto before = digest();
+    lose_standby(boss_);
+    for (int attempt = 0; attempt < 2; ++attempt) { // the second one finds them here
+        EXPECT_THAT(
+            while_waits_are_cancelled(boss_, [&] { return refusal_of([&] { move(0, boss_); }); }),
+            HasSubstr("in doubt until its standby has it"));
+        EXPECT_EQ(drives_in(east_), drives_of_first_cell * 2) << attempt;
+    }
+    need_no_standby(boss_);
+    EXPECT_EQ(move(0, boss_), 0);
+    EXPECT_EQ(drives_in(east_), 0);
+    EXPECT_EQ(digest(), before);
+}
+
 TEST_F(Cells, FuseOnAFrontOfAnEarlierVersionToo) {
     move(3, east_);
     ServerConnection{boss_}.run("DROP FUNCTION macadam.await_standby");
