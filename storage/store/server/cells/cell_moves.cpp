@@ -93,6 +93,13 @@ public:
                                 next("drive"),
                                 next("segment_state"),
                                 server));
+        for (const auto* const table : moved_tables) {
+            front_->run(fmt::format("COMMENT ON FOREIGN TABLE macadam.{} IS"
+                                    " 'Rows of table {} in map tile {}, on another server'",
+                                    next(table),
+                                    table,
+                                    cell_));
+        }
     }
 
     void add_tables_here() {

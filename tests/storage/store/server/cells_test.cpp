@@ -305,6 +305,24 @@ TEST_F(Cells, StayOnOtherServersUntilTheStandbyOfTheFrontHasThem) {
     EXPECT_EQ(digest(), before);
 }
 
+TEST_F(Cells, ExplainEveryObjectOfTheirFront) {
+    move(0, west_);
+    ServerConnection front{front_};
+    for (const auto* const unexplained :
+         {"SELECT relname FROM pg_class WHERE relnamespace = 'macadam'::regnamespace"
+          " AND relkind IN ('r', 'p', 'v', 'f') AND obj_description(oid, 'pg_class') IS NULL",
+          "SELECT relname || '.' || attname FROM pg_attribute JOIN pg_class"
+          " ON pg_class.oid = attrelid WHERE relnamespace = 'macadam'::regnamespace AND relkind IN"
+          " ('r', 'p', 'v', 'f') AND NOT relispartition AND attnum > 0 AND"
+          " col_description(attrelid, attnum) IS NULL",
+          "SELECT proname FROM pg_proc WHERE pronamespace = 'macadam'::regnamespace"
+          " AND obj_description(oid, 'pg_proc') IS NULL"}) {
+        const auto names = front.rows(unexplained);
+        EXPECT_TRUE(names.empty()) << names.at(0)[0].value_or("");
+    }
+    EXPECT_EQ(front.number("SELECT count(*) FROM pg_class WHERE relkind = 'f'"), 2);
+}
+
 TEST_F(Cells, FuseOnAFrontOfAnEarlierVersionToo) {
     move(3, east_);
     ServerConnection{boss_}.run("DROP FUNCTION macadam.await_standby");
