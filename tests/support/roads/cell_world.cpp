@@ -68,8 +68,9 @@ void import_border_trips(const RoadStore& file, int first, int past) {
 
 void CellWorld::SetUp() {
     static_cast<void>(RoadStore::create(folder_ / "roads.gpkg", border_country(), settings()));
-    copy_to_server(folder_ / "roads.gpkg", front_, {}, {});
     ServerConnection boss{boss_};
+    boss.run("CREATE ROLE macadam_operator; CREATE ROLE chief LOGIN IN ROLE macadam_operator");
+    copy_to_server(folder_ / "roads.gpkg", front_, {}, {});
     for (const auto& cell : cells_of(boss)) {
         numbers_.push_back(cell.number);
     }

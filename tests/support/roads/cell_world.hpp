@@ -73,6 +73,7 @@ protected:
     PostgresServer server_; // keys and roads are kept there
     std::string front_ = server_.new_database("front");
     std::string boss_ = server_.address("front");
+    std::string chief_ = server_.address("front", "chief"); ///< only a member of macadam_operator
     std::string west_ = with_a_standby(server_.new_database("west"));
     std::string east_ = east_server_.new_database("east");
     std::vector<std::int32_t> numbers_; ///< north-west, north-east, south-west, south-east

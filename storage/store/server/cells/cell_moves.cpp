@@ -1,6 +1,8 @@
 #include "storage/store/server/cells/cell_moves.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/role_grants.hpp"
+#include "storage/postgres/server_array.hpp"
 #include "storage/store/server/cells/cell_drives.hpp"
 #include "storage/store/server/cells/cell_schema.hpp"
 #include "storage/store/server/reader_rights.hpp"
@@ -11,6 +13,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -24,17 +27,38 @@ std::optional<std::string> server_of(ServerConnection& front, std::int32_t cell)
     return found.empty() ? std::nullopt : found[0][0];
 }
 
-/// Runs statements that need tables alone once nobody reads them. Whoever begins to read waits two
-/// seconds at most behind one who has read for long.
-constexpr const char* between_readers = R"sql(
-DO $$
+/// On the front, as its owner, with whose rights operators call them.
+constexpr const char* operator_functions = R"sql(
+CREATE OR REPLACE FUNCTION macadam.prepare_cell(cell integer) RETURNS bigint
+LANGUAGE plpgsql SECURITY DEFINER SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    place record;
+    next_number bigint := nextval('macadam.cell_number');
+BEGIN
+    SELECT cell_place.server, cell_place.number INTO STRICT place
+    FROM macadam.cell_place WHERE cell_place.cell = prepare_cell.cell;
+    PERFORM macadam.add_cell_tables(place.server, prepare_cell.cell, next_number, place.number);
+    RETURN next_number;
+END $$;
+
+-- Whoever begins to read waits two seconds at most behind one who has read for long.
+CREATE OR REPLACE FUNCTION macadam.switch_cells(cells integer[], numbers bigint[]) RETURNS void
+LANGUAGE plpgsql SECURITY DEFINER SET search_path = pg_catalog, pg_temp AS $$
 DECLARE
     attempt integer := 0;
+    next_one record;
+    parent text;
 BEGIN
     LOOP
         BEGIN
             SET LOCAL lock_timeout = '2s';
-            {}
+            FOR next_one IN SELECT * FROM unnest(cells, numbers) AS next (cell, number) LOOP
+                FOREACH parent IN ARRAY ARRAY['drive', 'segment_state'] LOOP
+                    EXECUTE format('ALTER FOREIGN TABLE macadam.%I OPTIONS (SET table_name %L)',
+                                   parent || '_' || next_one.cell,
+                                   parent || '_' || next_one.cell || '_' || next_one.number);
+                END LOOP;
+            END LOOP;
             EXIT;
         EXCEPTION WHEN lock_not_available THEN
             attempt := attempt + 1;
@@ -45,17 +69,19 @@ BEGIN
         PERFORM pg_sleep(0.5);
     END LOOP;
     SET LOCAL lock_timeout TO DEFAULT;
-END $$
-)sql";
+    UPDATE macadam.cell_place SET number = next.number
+    FROM unnest(cells, numbers) AS next (cell, number) WHERE cell_place.cell = next.cell;
+END $$;
 
-/// Removes tables of cells that moved away from here. They are not partitions, whose names end with
-/// the cell.
-constexpr const char* drop_left_tables = R"sql(
-DO $$
+-- On the front, partitions have names that end with the cell.
+CREATE OR REPLACE FUNCTION macadam.drop_unused_cell_tables() RETURNS void
+LANGUAGE plpgsql SECURITY DEFINER SET search_path = pg_catalog, pg_temp SET lock_timeout = '2s' AS $$
 DECLARE
     leaving text;
 BEGIN
-    SET LOCAL lock_timeout = '2s';
+    PERFORM macadam.drop_cell_tables(name, ARRAY(SELECT number FROM macadam.cell_place
+                                                 WHERE server = name))
+    FROM macadam_cells.address;
     FOR leaving IN SELECT relname FROM pg_class WHERE relnamespace = 'macadam'::regnamespace
                    AND relkind = 'r' AND relname ~ '^(drive|segment_state)_\d+_\d+$' LOOP
         BEGIN
@@ -64,8 +90,36 @@ BEGIN
             NULL; -- read at the moment: next time
         END;
     END LOOP;
-END $$
+END $$;
+
+COMMENT ON FUNCTION macadam.prepare_cell IS 'Copies the tables of a cell on its server, under the number that it returns';
+COMMENT ON FUNCTION macadam.switch_cells IS 'Lets cells have the tables of these numbers';
+COMMENT ON FUNCTION macadam.drop_unused_cell_tables IS 'Removes tables of cells, here and on other servers, that were replaced';
+REVOKE ALL ON FUNCTION macadam.prepare_cell, macadam.switch_cells, macadam.drop_unused_cell_tables FROM PUBLIC;
 )sql";
+
+/// Gives operators the functions above, which a new front lacks, and one of an earlier version.
+void add_operator_functions(ServerConnection& front) {
+    if (front.number("SELECT (to_regprocedure('macadam.drop_unused_cell_tables()') IS NOT NULL)"
+                     "::integer") != 0) {
+        return;
+    }
+    if (front.number("SELECT pg_has_role(nspowner, 'USAGE')::integer FROM pg_namespace"
+                     " WHERE nspname = 'macadam'") == 0) {
+        throw InputError{fmt::format("{0}: its cells were moved by an earlier version, which let "
+                                     "the owner alone change them; once the owner ran 'macadam "
+                                     "cells {0} --move CELL --to ADDRESS', even to where the cell "
+                                     "is, operators may, too",
+                                     front.address())};
+    }
+    ServerTransaction all{front};
+    act_as_owner(front);
+    front.run(operator_functions +
+              granting("EXECUTE ON FUNCTION macadam.prepare_cell, macadam.switch_cells,"
+                       " macadam.drop_unused_cell_tables",
+                       {std::string_view{"macadam_operator"}}));
+    all.commit();
+}
 
 std::int64_t next_number(ServerConnection& front) {
     return front.number("SELECT nextval('macadam.cell_number')");
@@ -219,7 +273,11 @@ std::int64_t move_cell(ServerConnection& front, std::int32_t cell, const std::st
         auto server = cell_server_at(front, address);
         to = (server ? *server : add_cell_server(front, address)).name;
     }
-    const auto from = has_cells(front) ? server_of(front, cell) : std::nullopt;
+    std::optional<std::string> from;
+    if (has_cells(front)) {
+        add_operator_functions(front);
+        from = server_of(front, cell);
+    }
     if (from == to) {
         drop_unused_cell_tables(front); // an earlier move may have been in doubt
         return 0;
@@ -247,35 +305,26 @@ std::vector<NextCellTables> prepare_cells(ServerConnection& front) {
     if (!has_cells(front)) {
         return next;
     }
+    add_operator_functions(front);
     drop_unused_cell_tables(front);
-    for (const auto& row :
-         front.rows("SELECT cell, server, number FROM macadam.cell_place ORDER BY cell")) {
-        const auto number = next_number(front);
-        front.rows("SELECT macadam.add_cell_tables($1, $2, $3, $4)",
-                   {row[1], row[0], std::to_string(number), row[2]});
-        next.push_back({std::stoi(row[0].value_or("0")), number});
+    for (const auto cell : cells_elsewhere(front)) {
+        next.push_back(
+            {cell, front.numbers("SELECT macadam.prepare_cell($1)", {std::to_string(cell)}).at(0)});
     }
     return next;
 }
 
 void switch_cells(ServerConnection& front, const std::vector<NextCellTables>& next) {
-    std::string alterations;
+    if (next.empty()) {
+        return;
+    }
+    std::vector<std::int32_t> cells;
+    std::vector<std::int64_t> numbers;
     for (const auto& [cell, number] : next) {
-        for (const auto* const table : moved_tables) {
-            alterations +=
-                fmt::format("ALTER FOREIGN TABLE macadam.{}_{} OPTIONS (SET table_name '{}');",
-                            table,
-                            cell,
-                            cell_table(table, cell, number));
-        }
+        cells.push_back(cell);
+        numbers.push_back(number);
     }
-    if (!alterations.empty()) {
-        front.run(fmt::format(fmt::runtime(between_readers), alterations));
-    }
-    for (const auto& [cell, number] : next) {
-        front.rows("UPDATE macadam.cell_place SET number = $2 WHERE cell = $1",
-                   {std::to_string(cell), std::to_string(number)});
-    }
+    front.rows("SELECT macadam.switch_cells($1, $2)", {array_of(cells), array_of(numbers)});
 }
 
 void drop_unused_cell_tables(ServerConnection& front) {
@@ -285,9 +334,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     await_standby_of_front(front);
     await_standbys(front, cells_elsewhere(front)); // else what replaced them may go with a server
     try {
-        front.rows("SELECT macadam.drop_cell_tables(name, ARRAY(SELECT number FROM"
-                   " macadam.cell_place WHERE server = name)) FROM macadam_cells.address");
-        front.run(drop_left_tables);
+        front.rows("SELECT macadam.drop_unused_cell_tables()");
     } catch (const InputError& error) {
         throw ServerTrouble{fmt::format("{}; replaced rows are still there, and are removed by "
                                         "the next command of this kind",

@@ -33,7 +33,10 @@ struct NextCellTables {
 };
 
 /// Prepares a generation: copies the tables of each cell on its server, under new names. The role
-/// has the places of cells alone.
+/// has the places of cells alone, and is the owner of the database or an operator.
+///
+/// \throws InputError  if an earlier version moved the cells, and the role is not the owner, who
+///                     gives operators what they need by any call of move_cell().
 std::vector<NextCellTables> prepare_cells(ServerConnection& front);
 
 /// Lets the front read and write the new tables, within the caller's transaction: all servers

@@ -24,7 +24,44 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class CellGenerations : public CellWorld {};
+class CellGenerations : public CellWorld {
+protected:
+    /// Imports trips of a fleet, whose car 0 reads too high, to the front, and to a file like it.
+    RoadStore import_fleet() {
+        constexpr int fleet_trips = 30;
+        auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+        for (const auto& open : {import_store_of(file).trips, open_server_import(front_).trips}) {
+            for (int number = 0; number < fleet_trips; ++number) {
+                const auto record = trip_record(number);
+                auto passes = passes_of_fleet(number);
+                for (std::size_t i = 0; i < passes.size(); ++i) {
+                    passes[i].segment.way_id = i % 2 == 0 ? 1 : 5; // on both servers
+                }
+                const NewTrip trip{&record, passes, {}, false, {}};
+                open->add_trips({&trip, 1});
+            }
+            fuse_all(*open);
+        }
+        return file;
+    }
+
+    /// Does as an operator what is done to a file.
+    void expect_work_of_operators(RoadStore file) {
+        const ForgetRequest one{.trips = {trip_record(4).sha256}, .vehicles = {}};
+        const std::vector<SegmentKey> resurfaced{{1, true, 2}};
+        constexpr std::int64_t from_ms = 1'765'000'000'000;
+        const auto before = digest();
+        RoadStore{open_replica_to_forget(chief_, one, {}, {})}.maintenance.forget(one);
+        EXPECT_NE(digest(), before);
+        RoadStore{open_server_replica(chief_, {}, {})}.maintenance.calibrate();
+        RoadStore{open_server_replica(chief_, {}, {})}.maintenance.set_valid_from(
+            resurfaced, from_ms, {});
+        file.maintenance.forget(one);
+        file.maintenance.calibrate();
+        file.maintenance.set_valid_from(resurfaced, from_ms, {});
+        EXPECT_EQ(digest(), file.digest());
+    }
+};
 
 TEST_F(CellGenerations, SwitchToAGenerationThatIsPreparedEverywhere) {
     import(0, 6);
@@ -98,21 +135,8 @@ TEST_F(CellGenerations, AreInDoubtUntilTheStandbyOfEachServerHasThem) {
 }
 
 TEST_F(CellGenerations, AreCalibratedAsAFileIs) {
-    constexpr int fleet_trips = 30;
     spread();
-    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
-    for (const auto& open : {import_store_of(file).trips, open_server_import(front_).trips}) {
-        for (int number = 0; number < fleet_trips; ++number) {
-            const auto record = trip_record(number);
-            auto passes = passes_of_fleet(number);
-            for (std::size_t i = 0; i < passes.size(); ++i) {
-                passes[i].segment.way_id = i % 2 == 0 ? 1 : 5; // on both servers
-            }
-            const NewTrip trip{&record, passes, {}, false, {}};
-            open->add_trips({&trip, 1});
-        }
-        fuse_all(*open);
-    }
+    auto file = import_fleet();
     const auto before = digest();
     ASSERT_EQ(before, file.digest());
     file.maintenance.calibrate();
@@ -125,6 +149,31 @@ TEST_F(CellGenerations, AreCalibratedAsAFileIs) {
                     .maintenance.forget(request)
                     .calibrated);
     EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(CellGenerations, AreTheWorkOfOperators) {
+    spread();
+    expect_work_of_operators(import_fleet());
+}
+
+TEST_F(CellGenerations, NeedNoMoreRightsOnOneServer) {
+    expect_work_of_operators(import_fleet());
+}
+
+TEST_F(CellGenerations, AreTheWorkOfOperatorsOnceTheOwnerOfAnEarlierFrontMovesACell) {
+    spread();
+    ServerConnection{front_}.run("DROP FUNCTION macadam.prepare_cell, macadam.switch_cells,"
+                                 " macadam.drop_unused_cell_tables");
+    auto file = import_fleet();
+    EXPECT_THAT(
+        refusal_of([&] { RoadStore{open_server_replica(chief_, {}, {})}.maintenance.calibrate(); }),
+        HasSubstr("once the owner ran 'macadam cells"));
+    EXPECT_EQ(digest(), file.digest());
+    {
+        ServerConnection owner{front_};
+        EXPECT_EQ(move_cell(owner, numbers_.at(0), west_), 0);
+    }
+    expect_work_of_operators(file);
 }
 
 TEST_F(CellGenerations, MoveTheirPassesToANewerMapAsAFileDoes) {
