@@ -300,7 +300,8 @@ std::int64_t move_cell(ServerConnection& front, std::int32_t cell, const std::st
     return rows;
 }
 
-std::vector<NextCellTables> prepare_cells(ServerConnection& front) {
+std::vector<NextCellTables> prepare_cells(ServerConnection& front,
+                                          const std::optional<std::set<std::int32_t>>& changing) {
     std::vector<NextCellTables> next;
     if (!has_cells(front)) {
         return next;
@@ -308,8 +309,11 @@ std::vector<NextCellTables> prepare_cells(ServerConnection& front) {
     add_operator_functions(front);
     drop_unused_cell_tables(front);
     for (const auto cell : cells_elsewhere(front)) {
-        next.push_back(
-            {cell, front.numbers("SELECT macadam.prepare_cell($1)", {std::to_string(cell)}).at(0)});
+        if (!changing || changing->contains(cell)) {
+            next.push_back(
+                {cell,
+                 front.numbers("SELECT macadam.prepare_cell($1)", {std::to_string(cell)}).at(0)});
+        }
     }
     return next;
 }

@@ -3,6 +3,8 @@
 #include "storage/postgres/server_connection.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,12 +34,14 @@ struct NextCellTables {
     std::int64_t number; ///< of the new ones
 };
 
-/// Prepares a generation: copies the tables of each cell on its server, under new names. The role
+/// Prepares a generation: copies the tables of cells on their servers, under new names. The role
 /// has the places of cells alone, and is the owner of the database or an operator.
 ///
+/// \param changing  cells whose tables may change; `std::nullopt`: all
 /// \throws InputError  if an earlier version moved the cells, and the role is not the owner, who
 ///                     gives operators what they need by any call of move_cell().
-std::vector<NextCellTables> prepare_cells(ServerConnection& front);
+std::vector<NextCellTables> prepare_cells(ServerConnection& front,
+                                          const std::optional<std::set<std::int32_t>>& changing);
 
 /// Lets the front read and write the new tables, within the caller's transaction: all servers
 /// switch with its commit. Waits for those who read them, who do not keep others waiting.

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace macadam {
@@ -68,7 +69,7 @@ private:
             return;
         }
         auto& database = copy_->database;
-        const auto next = prepare_cells(server_);
+        const auto next = prepare_cells(server_, changing_cells());
         ServerTransaction all{server_};
         switch_cells(server_, next);
         write_back(server_, *copy_, changed, part_ ? ReplicaExtent::part : ReplicaExtent::all);
@@ -79,6 +80,18 @@ private:
         remove_mirrors_of_fusion(server_); // even if a server of cells fails now
         drop_unused_cell_tables(server_);
         recorder_.emplace(database);
+    }
+
+    /// Cells of which drives or fused values may change; `std::nullopt`: all.
+    std::optional<std::set<std::int32_t>> changing_cells() const {
+        if (!part_) {
+            return std::nullopt;
+        }
+        std::set<std::int32_t> cells;
+        for (const auto& chunk : part_->chunks) {
+            cells.insert(chunk.cell);
+        }
+        return cells;
     }
 
     void expect_same_digest(const Progress& progress) {

@@ -14,6 +14,8 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <future>
 #include <memory>
 #include <string>
@@ -149,6 +151,35 @@ TEST_F(CellGenerations, AreCalibratedAsAFileIs) {
                     .maintenance.forget(request)
                     .calibrated);
     EXPECT_EQ(digest(), file.digest());
+}
+
+TEST_F(CellGenerations, AreOfThoseCellsAloneThatForgottenTripsDrove) {
+    import(0, 2);
+    spread();
+    auto file = RoadStore::create(folder_ / "file.gpkg", border_country(), settings());
+    import_border_trips(file, 0, 2);
+    const RichTrip one{7}; // over way 1
+    for (const auto& open : {import_store_of(file).trips, open_server_import(front_).trips}) {
+        const auto trip = one.as_new();
+        open->add_trips({&trip, 1});
+        fuse_all(*open);
+    }
+    ServerConnection front{front_};
+    const auto numbers = [&] {
+        return front.numbers("SELECT number FROM macadam.cell_place ORDER BY cell");
+    };
+    const auto before = numbers();
+    const ForgetRequest request{.trips = {one.record.sha256}, .vehicles = {}};
+    RoadStore{open_replica_to_forget(front_, request, {}, {})}.maintenance.forget(request);
+    file.maintenance.forget(request);
+    EXPECT_EQ(digest(), file.digest());
+    const auto after = numbers();
+    ASSERT_EQ(after.size(), numbers_.size());
+    const auto driven =
+        number(front_, "SELECT cell FROM macadam.segment WHERE way_id = '1' LIMIT 1");
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        EXPECT_EQ(after[i] != before[i], numbers_[i] == driven) << i;
+    }
 }
 
 TEST_F(CellGenerations, AreTheWorkOfOperators) {
