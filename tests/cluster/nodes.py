@@ -24,7 +24,8 @@ from processes import pid_in, run, send, tree
 NAMES = ("n1", "n2", "n3")
 DATABASE_PORT, REST_PORT, ETCD_PORT, PEER_PORT = 15432, 18008, 12379, 12380
 STANZA = "macadam"
-PGBACKREST_PUSH = pathlib.Path(__file__).parents[2] / "packaging" / "cluster" / "pgbackrest_push.sh"
+SCRIPTS = pathlib.Path(__file__).parents[2] / "packaging" / "cluster"
+PGBACKREST_PUSH, PGBACKREST_GET = SCRIPTS / "pgbackrest_push.sh", SCRIPTS / "pgbackrest_get.sh"
 TTL_S = 20  # the shortest that Patroni's manual allows
 DISK_MIB = 1000
 WAL_KEPT_MIB = 64
@@ -138,7 +139,7 @@ class Node:
                     "replication": {"username": "replicator", "password": passwords["replicator"]},
                     "rewind": {"username": "rewinder", "password": passwords["rewinder"]},
                 },
-                "recovery_conf": {"restore_command": f"pgbackrest --stanza={STANZA} archive-get %f %p"},
+                "recovery_conf": {"restore_command": f"sh {shlex.quote(str(PGBACKREST_GET))} %f %p"},
                 "parameters": {
                     "archive_command": f"sh {shlex.quote(str(PGBACKREST_PUSH))} %p",
                     "unix_socket_directories": str(self.folder),
