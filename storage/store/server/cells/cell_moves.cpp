@@ -41,6 +41,38 @@ BEGIN
     RETURN next_number;
 END $$;
 
+-- Within the transaction that fills the tables of a cell: what its server lost, it lost with this.
+CREATE OR REPLACE FUNCTION macadam.note_filled(cell integer) RETURNS void
+LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    place record;
+BEGIN
+    FOR place IN SELECT to_regclass('macadam.filled_' || server) AS filled, number
+                 FROM macadam.cell_place WHERE cell_place.cell = note_filled.cell LOOP
+        IF place.filled IS NOT NULL THEN
+            EXECUTE format('INSERT INTO %s VALUES ($1)', place.filled) USING place.number;
+        END IF;
+    END LOOP;
+END $$;
+
+CREATE OR REPLACE FUNCTION macadam.lost_cells() RETURNS SETOF integer
+LANGUAGE plpgsql SECURITY DEFINER SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    place record;
+    is_filled boolean;
+BEGIN
+    FOR place IN SELECT cell, number, to_regclass('macadam.filled_' || server) AS filled
+                 FROM macadam.cell_place ORDER BY cell LOOP
+        IF place.filled IS NOT NULL THEN
+            EXECUTE format('SELECT EXISTS (SELECT FROM %s WHERE number = $1)', place.filled)
+            INTO is_filled USING place.number;
+            IF NOT is_filled THEN
+                RETURN NEXT place.cell;
+            END IF;
+        END IF;
+    END LOOP;
+END $$;
+
 -- Whoever begins to read waits two seconds at most behind one who has read for long.
 CREATE OR REPLACE FUNCTION macadam.switch_cells(cells integer[], numbers bigint[]) RETURNS void
 LANGUAGE plpgsql SECURITY DEFINER SET search_path = pg_catalog, pg_temp AS $$
@@ -71,6 +103,7 @@ BEGIN
     SET LOCAL lock_timeout TO DEFAULT;
     UPDATE macadam.cell_place SET number = next.number
     FROM unnest(cells, numbers) AS next (cell, number) WHERE cell_place.cell = next.cell;
+    PERFORM macadam.note_filled(cell) FROM unnest(cells) AS cell;
 END $$;
 
 -- On the front, partitions have names that end with the cell.
@@ -93,9 +126,12 @@ BEGIN
 END $$;
 
 COMMENT ON FUNCTION macadam.prepare_cell IS 'Copies the tables of a cell on its server, under the number that it returns';
+COMMENT ON FUNCTION macadam.note_filled IS 'Notes on the server of a cell that its tables are filled';
+COMMENT ON FUNCTION macadam.lost_cells IS 'Cells whose server lost the rows that it got, as in a failover';
 COMMENT ON FUNCTION macadam.switch_cells IS 'Lets cells have the tables of these numbers';
 COMMENT ON FUNCTION macadam.drop_unused_cell_tables IS 'Removes tables of cells, here and on other servers, that were replaced';
-REVOKE ALL ON FUNCTION macadam.prepare_cell, macadam.switch_cells, macadam.drop_unused_cell_tables FROM PUBLIC;
+REVOKE ALL ON FUNCTION macadam.prepare_cell, macadam.note_filled, macadam.lost_cells, macadam.switch_cells, macadam.drop_unused_cell_tables
+FROM PUBLIC;
 )sql";
 
 /// Gives operators the functions above, which a new front lacks, and one of an earlier version.
@@ -115,8 +151,8 @@ void add_operator_functions(ServerConnection& front) {
     ServerTransaction all{front};
     act_as_owner(front);
     front.run(operator_functions +
-              granting("EXECUTE ON FUNCTION macadam.prepare_cell, macadam.switch_cells,"
-                       " macadam.drop_unused_cell_tables",
+              granting("EXECUTE ON FUNCTION macadam.prepare_cell, macadam.lost_cells,"
+                       " macadam.switch_cells, macadam.drop_unused_cell_tables",
                        {std::string_view{"macadam_operator"}}));
     all.commit();
 }
@@ -216,6 +252,7 @@ public:
         if (server) {
             front_->rows("INSERT INTO macadam.cell_place VALUES ($1, $2, $3)",
                          {cell, *server, std::to_string(number_)});
+            front_->rows("SELECT macadam.note_filled($1)", {cell});
         }
     }
 
@@ -233,6 +270,20 @@ void await_standby_of_front(ServerConnection& front) {
     ServerTransaction one{front};
     front.rows("SELECT pg_logical_emit_message(true, 'macadam', '')");
     one.commit();
+}
+
+/// Refuses to go on if a server lost rows that the front counts on, whatever its standbys have: it
+/// failed, and a standby took over that lacked them.
+void expect_no_lost_cells(ServerConnection& front) {
+    const auto lost = front.numbers("SELECT macadam.lost_cells()");
+    if (!lost.empty()) {
+        throw InputError{fmt::format("{}: another server lost the rows that it got of cell {}, as "
+                                     "in a failover without its standby; nothing is removed, rows "
+                                     "that were replaced are still there (docs/cluster.md, "
+                                     "'Several clusters')",
+                                     front.address(),
+                                     fmt::join(lost, ", "))};
+    }
 }
 
 void expect_cell(ServerConnection& front, std::int32_t cell) {
@@ -337,6 +388,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     }
     await_standby_of_front(front);
     await_standbys(front, cells_elsewhere(front)); // else what replaced them may go with a server
+    expect_no_lost_cells(front);
     try {
         front.rows("SELECT macadam.drop_unused_cell_tables()");
     } catch (const InputError& error) {

@@ -52,6 +52,8 @@ void switch_cells(ServerConnection& front, const std::vector<NextCellTables>& ne
 /// Removes tables of cells, here and on other servers, that the front does not use: replaced ones,
 /// once the standbys have what replaced them, and those of work that was interrupted. The role has
 /// the places of cells alone.
+///
+/// \throws InputError  if a server lost rows of a cell: then all stay.
 void drop_unused_cell_tables(ServerConnection& front);
 
 } // namespace macadam

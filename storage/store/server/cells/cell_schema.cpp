@@ -120,6 +120,9 @@ FROM PUBLIC;
 /// On a server that holds cells: the same functions, and empty tables, as which those are made that
 /// hold rows.
 constexpr const char* cell_functions = R"sql(
+CREATE TABLE macadam.filled (number bigint PRIMARY KEY);
+COMMENT ON TABLE macadam.filled IS 'Tables of cells whose rows are all there';
+COMMENT ON COLUMN macadam.filled.number IS 'Number that ends their names';
 CREATE INDEX drive_of_trip ON macadam.drive (trip);
 COMMENT ON INDEX macadam.drive_of_trip IS 'Drives of a trip, to forget it';
 CREATE FUNCTION macadam.put_drives(server text, target text, {arrays}) RETURNS bigint
@@ -170,6 +173,7 @@ BEGIN
             NULL; -- read at the moment: next time
         END;
     END LOOP;
+    DELETE FROM macadam.filled WHERE number <> ALL (kept);
     RETURN dropped;
 END $$;
 COMMENT ON FUNCTION macadam.put_drives IS 'Stores drives in a table; what is there already stays';
@@ -269,6 +273,15 @@ void add_foreign_server(ServerConnection& front,
                           user,
                           user.empty() ? "" : ", "));
     front.run(granting_to_owner(fmt::format("USAGE ON FOREIGN SERVER {}", server.name)));
+    act_as_owner(front);
+    front.run(fmt::format("CREATE FOREIGN TABLE macadam.filled_{0} (number bigint) SERVER {0}"
+                          " OPTIONS (schema_name 'macadam', table_name 'filled');"
+                          "COMMENT ON FOREIGN TABLE macadam.filled_{0} IS"
+                          " 'Tables of cells on another server whose rows are all there';"
+                          "COMMENT ON COLUMN macadam.filled_{0}.number IS"
+                          " 'Number that ends their names'",
+                          server.name));
+    front.run("RESET ROLE");
 }
 
 std::string connection_text(const std::string& address) {

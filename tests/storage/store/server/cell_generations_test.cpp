@@ -193,8 +193,11 @@ TEST_F(CellGenerations, NeedNoMoreRightsOnOneServer) {
 
 TEST_F(CellGenerations, AreTheWorkOfOperatorsOnceTheOwnerOfAnEarlierFrontMovesACell) {
     spread();
-    ServerConnection{front_}.run("DROP FUNCTION macadam.prepare_cell, macadam.switch_cells,"
-                                 " macadam.drop_unused_cell_tables");
+    ServerConnection{front_}.run("DROP FUNCTION macadam.prepare_cell, macadam.note_filled,"
+                                 " macadam.lost_cells, macadam.switch_cells,"
+                                 " macadam.drop_unused_cell_tables;"
+                                 "DROP FOREIGN TABLE macadam.filled_macadam_cells_1,"
+                                 " macadam.filled_macadam_cells_2");
     auto file = import_fleet();
     EXPECT_THAT(
         refusal_of([&] { RoadStore{open_server_replica(chief_, {}, {})}.maintenance.calibrate(); }),

@@ -305,6 +305,28 @@ TEST_F(Cells, StayOnOtherServersUntilTheStandbyOfTheFrontHasThem) {
     EXPECT_EQ(digest(), before);
 }
 
+TEST_F(Cells, StayWhereTheyWereIfTheirNewServerLostThemInAFailover) {
+    import(0, 2);
+    move(0, west_);
+    move(1, east_);
+    const auto boss = east_server_.address("east");
+    lose_standby(boss);
+    while_waits_are_cancelled(boss, [&] { return refusal_of([&] { move(0, east_); }); });
+    need_no_standby(boss);
+    const auto suffix =
+        std::to_string(numbers_.at(0)) + "_" +
+        std::to_string(number(front_,
+                              "SELECT number FROM macadam.cell_place WHERE cell = " +
+                                  std::to_string(numbers_.at(0))));
+    ServerConnection{boss}.run( // the last transaction is gone, that before it made the tables
+        "TRUNCATE macadam.drive_" + suffix + ", macadam.segment_state_" + suffix +
+        "; DELETE FROM macadam.filled WHERE number = (SELECT max(number) FROM macadam.filled)");
+    EXPECT_THAT(refusal_of([&] { move(0, east_); }),
+                HasSubstr("another server lost the rows that it got of cell " +
+                          std::to_string(numbers_.at(0))));
+    EXPECT_EQ(drives_in(west_), drives_of_first_cell * 2);
+}
+
 TEST_F(Cells, ExplainEveryObjectOfTheirFront) {
     move(0, west_);
     ServerConnection front{front_};
@@ -320,7 +342,7 @@ TEST_F(Cells, ExplainEveryObjectOfTheirFront) {
         const auto names = front.rows(unexplained);
         EXPECT_TRUE(names.empty()) << names.at(0)[0].value_or("");
     }
-    EXPECT_EQ(front.number("SELECT count(*) FROM pg_class WHERE relkind = 'f'"), 2);
+    EXPECT_EQ(front.number("SELECT count(*) FROM pg_class WHERE relkind = 'f'"), 3);
 }
 
 TEST_F(Cells, FuseOnAFrontOfAnEarlierVersionToo) {
