@@ -21,7 +21,9 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -109,7 +111,7 @@ private:
                 look_after();
                 fuse_if_older_than(fuse_at_age, max_fusing);
                 open_stores();
-                if (!work_batch() && !is_idle_done()) {
+                if ((!work_batch() || is_limit_reached()) && !is_idle_done()) {
                     pause(look_every);
                 } else if (is_done_) {
                     break;
@@ -384,15 +386,23 @@ private:
         may_fuse_at_ = Clock::now() + 4 * (Clock::now() - begin); // a fifth of the time
     }
 
+    bool is_worked_out() {
+        return queue_->number(fmt::format(
+                   "SELECT count(*) FROM (SELECT FROM macadam.job WHERE state IN"
+                   " ('queued', 'working') AND number <= {} LIMIT 1) AS waiting",
+                   work_.last_log.value_or(std::numeric_limits<std::int64_t>::max()))) == 0;
+    }
+
+    /// Others may be submitted without end.
+    bool is_limit_reached() { return work_.last_log && is_worked_out(); }
+
     /// No job is free: fuses, at once if none is worked on either.
     /// \returns whether that is all there is to do.
     bool is_idle_done() {
         if (!stores_.empty()) {
             erase_done();
         }
-        const bool is_empty =
-            queue_->number("SELECT count(*) FROM (SELECT FROM macadam.job WHERE state IN"
-                           " ('queued', 'working') LIMIT 1) AS waiting") == 0;
+        const bool is_empty = is_worked_out();
         if (is_empty) {
             may_fuse_at_ = {};
         }

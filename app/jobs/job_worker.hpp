@@ -5,7 +5,9 @@
 #include "app/import/import_trips.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace macadam {
@@ -17,8 +19,10 @@ struct JobWork {
     Arguments import_arguments;     ///< options of `import` by which logs are imported
     std::chrono::seconds lease{60}; ///< after which others take the jobs of a dead worker
     bool until_empty = false;       ///< ends when nothing waits, nor is worked on by others
-    bool keeps_logs = false;        ///< in the object store, once they are imported
-    bool takes_over = false;        ///< with another version of results
+    std::optional<std::int64_t>
+        last_log{};          ///< number, see work_status.hpp: later ones do not count
+    bool keeps_logs = false; ///< in the object store, once they are imported
+    bool takes_over = false; ///< with another version of results
     std::function<void(const TripReport&)> tell{}; ///< receives the report of each trip
 };
 

@@ -3,24 +3,18 @@
 #include "app/database/segment_options.hpp"
 #include "app/database/server_store.hpp"
 #include "app/jobs/forgotten_logs.hpp"
-#include "app/jobs/job_options.hpp"
-#include "app/jobs/job_worker.hpp"
+#include "app/jobs/log_backlog.hpp"
 #include "app/uploads/upload_work.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/jobs/work_status.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <string>
-#include <thread>
-#include <utility>
 
 namespace macadam {
 namespace {
@@ -34,32 +28,6 @@ std::string json_of(const Forgotten& forgotten) {
         .add("calibrated_anew", forgotten.calibrated)
         .add("log_is_clean", forgotten.log_is_clean);
     return object.text() + "\n";
-}
-
-/// Imports the logs in the queue of a server, so that what is forgotten does not come in later.
-/// Live workers do it themselves: they know the vehicle files.
-void import_waiting_logs(const std::string& address, const Console& console) {
-    auto server = opened_server(address);
-    bool has_said = false;
-    while (server.number("SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')") >
-           0) {
-        if (console.stop().stop_requested()) {
-            throw InputError{fmt::format("{}: interrupted while logs were waiting; nothing was "
-                                         "changed",
-                                         address)};
-        }
-        if (!std::exchange(has_said, true)) {
-            console.say("importing the logs that wait in the queue, first");
-        }
-        if (std::ranges::any_of(work_status(server, 0).workers, &WorkerStatus::is_alive)) {
-            std::this_thread::sleep_for(std::chrono::milliseconds{200});
-        } else {
-            JobWork work{
-                .address = address, .objects = {}, .import_arguments = upload_arguments({})};
-            work.until_empty = true;
-            work_out_jobs(work, console);
-        }
-    }
 }
 
 RoadStore
@@ -77,8 +45,8 @@ void run_forget(const Arguments& arguments, const Console& console) {
         throw UsageError{"expected --trip or --vehicle-id: what to delete"};
     }
     const bool is_on_server = is_server_address(file.string());
-    if (is_on_server) {
-        import_waiting_logs(file.string(), console);
+    if (is_on_server) { // so that what is forgotten does not come in later
+        work_out_backlog(file.string(), console);
     } else {
         work_out_all_uploads(file, console);
     }

@@ -101,4 +101,25 @@ WorkStatus work_status(ServerConnection& server, std::size_t max_failed) {
     return status;
 }
 
+std::int64_t last_log_number(ServerConnection& server) {
+    return server.number("SELECT coalesce(max(number), 0) FROM macadam.job");
+}
+
+Backlog backlog_up_to(ServerConnection& server, std::int64_t last) {
+    const auto row =
+        server
+            .rows("SELECT (SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')"
+                  " AND number <= $1::bigint), EXISTS (SELECT FROM macadam.job"
+                  " WHERE state = 'working' AND number <= $1::bigint AND lease_until > now()),"
+                  " (SELECT max(lease_s) FROM macadam.worker"
+                  " WHERE seen_at > now() - lease_s * interval '1 s')",
+                  {std::to_string(last)})
+            .at(0);
+    Backlog backlog{.waiting = integer_in(row[0]), .is_worked_on = row[1] == "t", .lease = {}};
+    if (row[2]) {
+        backlog.lease = std::chrono::seconds{integer_in(row[2])};
+    }
+    return backlog;
+}
+
 } // namespace macadam

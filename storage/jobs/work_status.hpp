@@ -2,6 +2,7 @@
 
 #include "storage/postgres/server_connection.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -51,5 +52,18 @@ bool may_read_work(ServerConnection& server);
 
 /// \param max_failed  length of WorkStatus::failed
 WorkStatus work_status(ServerConnection& server, std::size_t max_failed);
+
+/// Number of the log that was submitted last, 0 if none was.
+std::int64_t last_log_number(ServerConnection& server);
+
+/// Logs that wait, without those that were submitted after some log.
+struct Backlog {
+    std::int64_t waiting = 0;
+    bool is_worked_on = false;                 ///< a worker that lives has some of them
+    std::optional<std::chrono::seconds> lease; ///< longest of workers that live; none lives without
+};
+
+/// \param last  number of that log
+Backlog backlog_up_to(ServerConnection& server, std::int64_t last);
 
 } // namespace macadam

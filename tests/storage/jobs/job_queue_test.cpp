@@ -649,6 +649,10 @@ TEST_F(JobQueue, IsSearchedByItsIndexes) {
                 " WHERE state IN ('parked', 'refused') ORDER BY state, number DESC LIMIT 20");
     expect_plan("job_submitted",
                 "SELECT count(*) FROM macadam.job WHERE submitted_at > now() - interval '1 hour'");
+    // As backlog_up_to() asks.
+    expect_plan("job_open",
+                "SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')"
+                " AND number <= 1000");
     expect_plan("Index Only Scan using chunk_dirty_pkey",
                 "SELECT DISTINCT chunk FROM macadam.chunk_dirty ORDER BY chunk LIMIT 1000");
 }
