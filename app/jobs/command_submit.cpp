@@ -97,7 +97,7 @@ private:
                 missing.push_back(unique[i]);
             }
         }
-        announce_logs(server_, jobs_in(missing));
+        announce_logs(server_, jobs_in(missing), objects_);
         for_each(missing, [](SubmittedLog& log, ObjectStore& store) {
             store.put({log.job.sha256, log.job.bytes}, log.file);
         });

@@ -1,10 +1,15 @@
 #include "storage/jobs/announced_logs.hpp"
 
+#include "storage/jobs/worker_register.hpp"
+
 namespace macadam {
 
-void announce_logs(ServerConnection& server, std::span<const Job> logs) {
+void announce_logs(ServerConnection& server,
+                   std::span<const Job> logs,
+                   const std::string& objects) {
     const auto hashes = hashes_of(logs);
     ServerTransaction one{server};
+    share_objects_location(server, objects);
     // First the jobs, as submit_logs().
     server.rows("WITH done AS (SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
                 " AND state IN ('outside', 'refused') ORDER BY sha256 FOR UPDATE)"

@@ -16,7 +16,11 @@ namespace macadam {
 /// Announces logs that the caller stores now, and submits within a day: submit_logs() ends the
 /// announcement. Meanwhile workers do not erase the objects of those that are done. Waits for who
 /// erases one just now.
-void announce_logs(ServerConnection& server, std::span<const Job> logs);
+/// \param objects  location where he stores them; "" = that of the workers, whichever it is
+/// \throws InputError  if workers look for them elsewhere.
+void announce_logs(ServerConnection& server,
+                   std::span<const Job> logs,
+                   const std::string& objects = {});
 
 /// Ends announcements that are older than a day, at most `limit`, in the transaction of the caller,
 /// who is to erase the objects of these logs in it: who announces one again waits for that.

@@ -2,12 +2,14 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/common/exact_number.hpp"
+#include "storage/jobs/worker_register.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string_view>
 
 namespace macadam {
@@ -117,17 +119,40 @@ std::vector<std::optional<std::string>> ours(const JobTaker& taker, const Job& j
     return {job.sha256, taker.worker, std::to_string(job.attempts)};
 }
 
-/// Shares the location of the object store until the end of the transaction.
-/// \throws InputError  if it is another one.
-void expect_objects_in(ServerConnection& server, const std::string& location) {
-    const auto rows =
-        server.rows("SELECT value FROM macadam.work_setting WHERE key = 'objects' FOR SHARE");
-    if (rows.empty() || rows[0][0] != location) {
-        throw InputError{fmt::format("{}: somebody else has just submitted to {}, where workers "
-                                     "look for all logs; expected {}: submit to the same store",
-                                     server.address(),
-                                     rows.empty() ? "no store" : rows[0][0].value_or(""),
-                                     location)};
+/// Ends the announcements of logs. Of those that are new, or tried again, the object is gone where
+/// it was erased after the announcement grew old.
+/// \throws InputError  if any is.
+void end_announcements(ServerConnection& server,
+                       std::span<const Job> logs,
+                       std::map<std::string, std::int64_t>& submissions) {
+    std::set<std::string> lost;
+    for (const auto& log : logs) {
+        if (submissions[log.sha256] == 1) {
+            lost.insert(log.sha256);
+        }
+    }
+    // In the order in which announce_logs() locks them.
+    for (const auto& row :
+         server.rows("WITH announced AS (SELECT sha256 FROM macadam.announced_log"
+                     " WHERE sha256 = ANY($1) ORDER BY sha256 FOR UPDATE)"
+                     " DELETE FROM macadam.announced_log USING announced"
+                     " WHERE announced_log.sha256 = announced.sha256 RETURNING announced.sha256",
+                     {hashes_of(logs)})) {
+        lost.erase(row[0].value_or(""));
+    }
+    for (const auto& row : server.rows("SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
+                                       " AND state IN ('outside', 'refused') AND NOT has_object",
+                                       {hashes_of(logs)})) {
+        lost.insert(row[0].value_or(""));
+    }
+    if (!lost.empty()) {
+        throw InputError{
+            fmt::format("{}: {} stored over a day ago, not queued, and erased since, "
+                        "such as {}; nothing was queued: store and submit {} again",
+                        server.address(),
+                        lost.size() == 1 ? "a log was" : fmt::format("{} logs were", lost.size()),
+                        *lost.begin(),
+                        lost.size() == 1 ? "it" : "them")};
     }
 }
 
@@ -158,9 +183,7 @@ std::vector<Submission> submit_logs(ServerConnection& server,
                                     const std::string& objects,
                                     const std::string& owner) {
     ServerTransaction one{server};
-    if (!objects.empty()) {
-        expect_objects_in(server, objects);
-    }
+    share_objects_location(server, objects);
     const auto before = known_states(server, logs, "FOR UPDATE");
     std::map<std::string, std::int64_t> submissions;
     // A known row is written, too: then the commit waits for the standby, which may lack it.
@@ -176,11 +199,11 @@ std::vector<Submission> submit_logs(ServerConnection& server,
     for (const auto& row : rows) {
         submissions[row[0].value_or("")] = number_in(row[1]);
     }
+    end_announcements(server, logs, submissions);
     server.rows(fmt::format("UPDATE macadam.job SET {} WHERE sha256 = ANY($1)"
                             " AND state IN ('outside', 'refused', 'parked')",
                             queued_again),
                 {hashes_of(logs)});
-    server.rows("DELETE FROM macadam.announced_log WHERE sha256 = ANY($1)", {hashes_of(logs)});
     one.commit();
     std::vector<Submission> results;
     for (const auto& log : logs) {

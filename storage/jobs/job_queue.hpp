@@ -42,15 +42,15 @@ std::vector<std::optional<UploadState>> states_of_logs(ServerConnection& server,
 std::string hashes_of(std::span<const Job> jobs);
 
 /// Queues logs whose objects are stored, in one transaction, and ends their announcements
-/// (announced_logs.hpp). A standby has them, too, when this
-/// returns, also those that are known.
+/// (announced_logs.hpp). A standby has them, too, when this returns, also those that are known.
 /// \param logs  without repetitions
 /// \param objects  location of their objects; "" = that of the workers, whichever it is
 /// \param owner    who sent them by a token; "" = they are submitted
 /// \returns for each what it was.
 ///
-/// \throws InputError  if workers look for them elsewhere; also if the commit is in doubt: then
-///                     submit them again.
+/// \throws InputError  if workers look for them elsewhere, or one that is not known was announced
+///                     over a day ago, or never: nothing is queued, store and submit them again;
+///                     also if the commit is in doubt: then submit them again.
 std::vector<Submission> submit_logs(ServerConnection& server,
                                     std::span<const Job> logs,
                                     const std::string& objects = {},

@@ -91,11 +91,11 @@ COMMENT ON INDEX macadam.job_trip_job IS 'Trips of a log, which go with it';
 )sql";
 
 constexpr const char* announced_logs = R"sql(
-CREATE TABLE macadam.announced_log (
+CREATE TABLE IF NOT EXISTS macadam.announced_log (
     sha256 text PRIMARY KEY,
     announced_at timestamptz NOT NULL DEFAULT now()
 );
-CREATE INDEX announced_log_at ON macadam.announced_log (announced_at);
+CREATE INDEX IF NOT EXISTS announced_log_at ON macadam.announced_log (announced_at);
 COMMENT ON TABLE macadam.announced_log IS 'Logs that somebody stores just now, or stored and did not submit: workers erase these after a day';
 COMMENT ON COLUMN macadam.announced_log.sha256 IS 'SHA-256 of the bytes of the log, in hex digits: its name in the object store';
 COMMENT ON COLUMN macadam.announced_log.announced_at IS 'When it was announced last';

@@ -110,6 +110,21 @@ std::optional<std::string> objects_location(ServerConnection& server) {
     return setting(server, objects_key);
 }
 
+void share_objects_location(ServerConnection& server, const std::string& location) {
+    if (location.empty()) {
+        return;
+    }
+    const auto rows =
+        server.rows("SELECT value FROM macadam.work_setting WHERE key = 'objects' FOR SHARE");
+    if (rows.empty() || rows[0][0] != location) {
+        throw InputError{fmt::format("{}: somebody else has just submitted to {}, where workers "
+                                     "look for all logs; expected {}: submit to the same store",
+                                     server.address(),
+                                     rows.empty() ? "no store" : rows[0][0].value_or(""),
+                                     location)};
+    }
+}
+
 void put_objects_location(ServerConnection& server, const std::string& location) {
     if (objects_location(server) == location) {
         return;
@@ -117,7 +132,7 @@ void put_objects_location(ServerConnection& server, const std::string& location)
     ServerTransaction one{server};
     server.run("LOCK TABLE macadam.work_setting IN SHARE ROW EXCLUSIVE MODE"); // one at a time
     const auto row = server.rows("SELECT value FROM macadam.work_setting WHERE key = $1 FOR UPDATE",
-                                 {objects_key}); // submit_logs() shares it
+                                 {objects_key}); // share_objects_location()
     const auto last = row.empty() ? std::nullopt : row[0][0];
     const auto waiting =
         server.number("SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')");

@@ -49,6 +49,9 @@ void end_worker(ServerConnection& server, const std::string& name);
 
 /// Location of the object store, as it was submitted to last; `std::nullopt` before that.
 std::optional<std::string> objects_location(ServerConnection& server);
+/// Keeps it until the end of the transaction. \param location  "" = whichever it is
+/// \throws InputError  if it is another one.
+void share_objects_location(ServerConnection& server, const std::string& location);
 /// Waits for those who submit just now.
 /// \throws InputError  if it differs from the last one, where logs still wait.
 void put_objects_location(ServerConnection& server, const std::string& location);

@@ -65,7 +65,7 @@ public:
         file.commit();
         try {
             auto& objects = opened_objects();
-            announce_logs(server(), {&job, 1});
+            announce_logs(server(), {&job, 1}, location_);
             objects.put({job.sha256, job.bytes}, spooled);
             submit_logs(server(), {&job, 1}, location_, upload.owner);
         } catch (...) {

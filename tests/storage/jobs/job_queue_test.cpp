@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <map>
 #include <string>
 #include <thread>
@@ -50,6 +51,13 @@ std::vector<std::string> hashes(const std::vector<Job>& jobs) {
     }
     std::ranges::sort(found);
     return found;
+}
+
+/// Submits logs as who stored them does.
+std::vector<Submission>
+submit(ServerConnection& server, std::span<const Job> jobs, const std::string& objects = {}) {
+    announce_logs(server, jobs, objects);
+    return submit_logs(server, jobs, objects);
 }
 
 const JobTaker anna{"anna", 60s};
@@ -97,15 +105,15 @@ protected:
 TEST_F(JobQueue, TakesEachLogOnce) {
     using enum Submission;
     const auto three = logs(3);
-    EXPECT_THAT(submit_logs(queue(), three), ElementsAre(added, added, added));
-    EXPECT_THAT(submit_logs(queue(), logs(4)), ElementsAre(known, known, known, added));
+    EXPECT_THAT(submit(queue(), three), ElementsAre(added, added, added));
+    EXPECT_THAT(submit(queue(), logs(4)), ElementsAre(known, known, known, added));
     EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(4));
-    EXPECT_THAT(submit_logs(queue(), three), Each(known));
+    EXPECT_THAT(submit(queue(), three), Each(known));
     EXPECT_THAT(take_jobs(queue(), ben, 10, false), IsEmpty());
 }
 
 TEST_F(JobQueue, GivesAJobToOneOfManyWhoAskAtOnce) {
-    submit_logs(queue(), logs(200));
+    submit(queue(), logs(200));
     std::vector<std::vector<Job>> taken(4);
     {
         std::vector<std::jthread> threads;
@@ -126,7 +134,7 @@ TEST_F(JobQueue, GivesAJobToOneOfManyWhoAskAtOnce) {
 }
 
 TEST_F(JobQueue, TakesAJobFromADeadWorkerAndLeavesItsLateEndAlone) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     const auto first = take_jobs(queue(), anna, 10, false);
     ASSERT_THAT(first, SizeIs(1));
     EXPECT_EQ(first[0].attempts, 1);
@@ -142,7 +150,7 @@ TEST_F(JobQueue, TakesAJobFromADeadWorkerAndLeavesItsLateEndAlone) {
 }
 
 TEST_F(JobQueue, RenewsTheLeasesOfAWorkerThatLives) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     begin_worker(queue(), {.taker = anna, .results_version = 1}, false);
     take_jobs(queue(), anna, 10, false);
     kill(anna);
@@ -158,10 +166,10 @@ TEST_F(JobQueue, RenewsTheLeasesOfAWorkerThatLives) {
 
 TEST_F(JobQueue, IsWorkedOutWhileTheSameLogsAreSubmittedAgainAndLeasesRenewed) {
     const auto all = logs(100);
-    submit_logs(queue(), all);
+    submit(queue(), all);
     std::jthread submitter{[&](const std::stop_token& stop) {
         for (ServerConnection own{address_}; !stop.stop_requested();) {
-            submit_logs(own, all); // a deadlock would end the test
+            submit(own, all); // a deadlock would end the test
             std::this_thread::sleep_for(5ms);
         }
     }};
@@ -184,7 +192,7 @@ TEST_F(JobQueue, IsWorkedOutWhileTheSameLogsAreSubmittedAgainAndLeasesRenewed) {
 }
 
 TEST_F(JobQueue, ParksAJobAtWhichFiveWorkersEnded) {
-    submit_logs(queue(), logs(3));
+    submit(queue(), logs(3));
     EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(3));
     for (int attempt = 2; attempt <= max_job_attempts; ++attempt) {
         kill(anna);
@@ -206,7 +214,7 @@ TEST_F(JobQueue, ParksAJobAtWhichFiveWorkersEnded) {
 
 TEST_F(JobQueue, TakesRetriesInBatchesThatShrinkUntilEachIsAlone) {
     constexpr std::size_t count = 40;
-    submit_logs(queue(), logs(static_cast<int>(count)));
+    submit(queue(), logs(static_cast<int>(count)));
     EXPECT_THAT(take_jobs(queue(), anna, count, false), SizeIs(count));
     for (const std::size_t batch : {20U, 10U, 5U, 1U}) {
         kill(anna);
@@ -217,7 +225,7 @@ TEST_F(JobQueue, TakesRetriesInBatchesThatShrinkUntilEachIsAlone) {
 }
 
 TEST_F(JobQueue, EndsJobsOfForgottenTripsWhateverTheyWaitFor) {
-    submit_logs(queue(), logs(4));
+    submit(queue(), logs(4));
     const auto taken = take_jobs(queue(), anna, 2, false);
     ASSERT_THAT(taken, SizeIs(2));
     const std::string trip(64, 'a'), other(64, 'b');
@@ -242,7 +250,7 @@ TEST_F(JobQueue, EndsJobsOfForgottenTripsWhateverTheyWaitFor) {
 }
 
 TEST_F(JobQueue, TriesAFailedJobAgainAfterAPauseAndParksItWithItsReason) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     for (int attempt = 1; attempt <= max_job_attempts; ++attempt) {
         const auto taken = take_jobs(queue(), anna, 10, false);
         ASSERT_THAT(taken, SizeIs(1)) << attempt;
@@ -254,12 +262,12 @@ TEST_F(JobQueue, TriesAFailedJobAgainAfterAPauseAndParksItWithItsReason) {
     EXPECT_EQ(status.logs.at("parked"), 1);
     EXPECT_EQ(status.oldest_s, 0);
     EXPECT_EQ(reason_of(logs(1)[0]), "the object is missing");
-    EXPECT_THAT(submit_logs(queue(), logs(1)), ElementsAre(Submission::requeued));
+    EXPECT_THAT(submit(queue(), logs(1)), ElementsAre(Submission::requeued));
     EXPECT_THAT(take_jobs(queue(), anna, 10, false), SizeIs(1));
 }
 
 TEST_F(JobQueue, DoesNotCountAttemptsThatWereNotMade) {
-    submit_logs(queue(), logs(2));
+    submit(queue(), logs(2));
     const auto taken = take_jobs(queue(), anna, 10, false);
     put_back_jobs(queue(), anna, taken);
     const auto again = take_jobs(queue(), ben, 10, false);
@@ -268,7 +276,7 @@ TEST_F(JobQueue, DoesNotCountAttemptsThatWereNotMade) {
 }
 
 TEST_F(JobQueue, TakesJobsAfterAPauseThatWasAskedFor) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     put_back_jobs(queue(), anna, take_jobs(queue(), anna, 1, false), 60s);
     EXPECT_THAT(take_jobs(queue(), anna, 1, false), IsEmpty());
     let_pauses_pass();
@@ -276,7 +284,7 @@ TEST_F(JobQueue, TakesJobsAfterAPauseThatWasAskedFor) {
 }
 
 TEST_F(JobQueue, TakesBackAllJobsOfAWorkerWhoseConnectionBroke) {
-    submit_logs(queue(), logs(3));
+    submit(queue(), logs(3));
     EXPECT_THAT(take_jobs(queue(), anna, 2, false), SizeIs(2));
     EXPECT_THAT(take_jobs(queue(), ben, 1, false), SizeIs(1));
     renew_worker(queue(), anna, 0); // the heartbeat goes on
@@ -288,7 +296,7 @@ TEST_F(JobQueue, TakesBackAllJobsOfAWorkerWhoseConnectionBroke) {
 }
 
 TEST_F(JobQueue, TakesReasonsThatAreNoText) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     const auto taken = take_jobs(queue(), anna, 1, false);
     ASSERT_THAT(taken, SizeIs(1));
     fail_job(queue(), anna, taken[0], std::string{"caf\xe9 \0 ol\xc3\xa9", 11});
@@ -310,16 +318,16 @@ TEST_F(JobQueue, TellsTroubleOfTheServerFromRefusals) {
 }
 
 TEST_F(JobQueue, LetsRetriesWaitBehindNewLogsButNotForEver) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     fail_job(queue(), anna, take_jobs(queue(), anna, 1, false).at(0), "busy");
     let_pauses_pass();
-    submit_logs(queue(), logs(3));
+    submit(queue(), logs(3));
     EXPECT_THAT(take_jobs(queue(), anna, 1, false).at(0).attempts, 1);
     EXPECT_THAT(take_jobs(queue(), anna, 1, true).at(0).attempts, 2);
 }
 
 TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
-    submit_logs(queue(), logs(2));
+    submit(queue(), logs(2));
     const auto taken = take_jobs(queue(), anna, 10, false);
     ASSERT_THAT(taken, SizeIs(2));
     finish_jobs(
@@ -335,7 +343,7 @@ TEST_F(JobQueue, KnowsWhichObjectsAreNoLongerNeeded) {
 }
 
 TEST_F(JobQueue, KeepsTheObjectOfALogThatIsSubmittedAgain) {
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     const auto refuse = [&] {
         const auto taken = take_jobs(queue(), anna, 1, false);
         ASSERT_THAT(taken, SizeIs(1));
@@ -347,7 +355,7 @@ TEST_F(JobQueue, KeepsTheObjectOfALogThatIsSubmittedAgain) {
     EXPECT_THAT(to_erase(), SizeIs(1));
     announce_logs(queue(), logs(1)); // the submitter stores it now
     EXPECT_THAT(to_erase(), IsEmpty());
-    EXPECT_THAT(submit_logs(queue(), logs(1)), ElementsAre(Submission::requeued));
+    EXPECT_THAT(submit(queue(), logs(1)), ElementsAre(Submission::requeued));
     refuse();
     EXPECT_THAT(to_erase(), SizeIs(1));
 
@@ -371,7 +379,7 @@ TEST_F(JobQueue, KnowsWhichLogsWereStoredAndNotSubmittedForADay) {
                                 interval));
     };
     announce_logs(queue(), logs(3));
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     later("23 hours");
     EXPECT_THAT(end_old_announcements(queue(), 10), IsEmpty());
     announce_logs(queue(), logs(2)); // the second once more; the first is known
@@ -395,8 +403,55 @@ TEST_F(JobQueue, LetsALogBeStoredAgainOnceItsObjectIsErasedNotBefore) {
     EXPECT_THAT(end_old_announcements(worker, 10), IsEmpty());
 }
 
+TEST_F(JobQueue, QueuesNoLogWhoseObjectWasErasedWhenItsAnnouncementGrewOld) {
+    announce_logs(queue(), logs(2));
+    queue().rows("UPDATE macadam.announced_log SET announced_at = now() - interval '2 days'"
+                 " WHERE sha256 = $1",
+                 {logs(1)[0].sha256});
+    EXPECT_THAT(end_old_announcements(queue(), 10), ElementsAre(logs(1)[0].sha256));
+    EXPECT_THAT(refusal_of([&] { submit_logs(queue(), logs(2)); }),
+                AllOf(HasSubstr("a log was stored over a day ago, not queued, and erased since"),
+                      HasSubstr(logs(1)[0].sha256),
+                      HasSubstr("nothing was queued: store and submit it again")));
+    EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 0);
+    EXPECT_THAT(submit(queue(), logs(2)), Each(Submission::added));
+    EXPECT_THAT(submit_logs(queue(), logs(2)), Each(Submission::known)); // needs no object
+}
+
+TEST_F(JobQueue, QueuesNoRefusedLogAgainWhoseObjectWasErased) {
+    submit(queue(), logs(1));
+    finish_jobs(queue(),
+                anna,
+                std::vector{JobEnd{.job = take_jobs(queue(), anna, 1, false).at(0),
+                                   .state = UploadState::refused}});
+    note_erased(queue(), logs(1));
+    EXPECT_THAT(refusal_of([&] { submit_logs(queue(), logs(1)); }),
+                HasSubstr("store and submit it again"));
+    EXPECT_EQ(states_of_logs(queue(), logs(1)).at(0), UploadState::refused);
+    EXPECT_THAT(submit(queue(), logs(1)), ElementsAre(Submission::requeued));
+}
+
+TEST_F(JobQueue, TakesLogsWhileSomebodyElseAnnouncesThem) {
+    const auto all = logs(100);
+    // In the table they lie in another order than that of their hashes.
+    queue().run("INSERT INTO macadam.announced_log (sha256) SELECT lpad(to_hex(number), 64, '0')"
+                " FROM generate_series(99, 0, -1) AS number; ANALYZE macadam.announced_log");
+    ServerConnection third{address_}, other{address_}, watch{address_};
+    std::optional<ServerTransaction> holding{third};
+    third.rows("SELECT FROM macadam.announced_log WHERE sha256 = $1 FOR UPDATE", {all[50].sha256});
+    auto announced = std::async(std::launch::async, [&] { announce_logs(other, all); });
+    auto submitted = std::async(std::launch::async, [&] { return submit_logs(queue(), all); });
+    while (watch.number("SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
+                        " AND datname = current_database()") < 2) {
+        std::this_thread::sleep_for(1ms);
+    }
+    holding.reset();
+    announced.get(); // throws if the two waited for each other
+    EXPECT_THAT(submitted.get(), Each(Submission::added));
+}
+
 TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
-    submit_logs(queue(), logs(4));
+    submit(queue(), logs(4));
     const auto taken = take_jobs(queue(), anna, 3, false);
     ASSERT_THAT(taken, SizeIs(3));
     finish_jobs(
@@ -418,14 +473,14 @@ TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
     const auto states = states_of_logs(queue(), taken);
     EXPECT_FALSE(states[0].has_value());
     EXPECT_EQ(states[1], UploadState::imported);
-    EXPECT_EQ(submit_logs(queue(), std::span{taken}.first(1)).at(0), Submission::added);
+    EXPECT_EQ(submit(queue(), std::span{taken}.first(1)).at(0), Submission::added);
 }
 
 TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
     EXPECT_FALSE(objects_location(queue()).has_value());
     put_objects_location(queue(), "/srv/a");
     put_objects_location(queue(), "/srv/b");
-    submit_logs(queue(), logs(1));
+    submit(queue(), logs(1));
     put_objects_location(queue(), "/srv/b");
     EXPECT_THAT(refusal_of([&] { put_objects_location(queue(), "/srv/a"); }),
                 HasSubstr("a log waits in /srv/b"));
@@ -435,7 +490,8 @@ TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
 TEST_F(JobQueue, TakesLogsOfOneOfTwoStoresThatAreSubmittedToAtOnce) {
     constexpr int rounds = 20;
     for (int round = 0; round < rounds; ++round) {
-        queue().run("DELETE FROM macadam.job; DELETE FROM macadam.work_setting");
+        queue().run("DELETE FROM macadam.job; DELETE FROM macadam.announced_log;"
+                    " DELETE FROM macadam.work_setting");
         std::vector<int> is_submitted(2);
         {
             std::vector<std::jthread> threads;
@@ -446,7 +502,7 @@ TEST_F(JobQueue, TakesLogsOfOneOfTwoStoresThatAreSubmittedToAtOnce) {
                     const auto both = logs(2);
                     try {
                         put_objects_location(own, store);
-                        submit_logs(own, std::span{both}.subspan(i, 1), store);
+                        submit(own, std::span{both}.subspan(i, 1), store);
                         is_submitted[i] = 1;
                     } catch (const InputError& error) {
                         EXPECT_THAT(error.what(), HasSubstr("where workers look for all logs"));
@@ -463,14 +519,14 @@ TEST_F(JobQueue, TakesLogsOfOneOfTwoStoresThatAreSubmittedToAtOnce) {
 TEST_F(JobQueue, TakesLogsOfAStoreThatWasReplacedMeanwhileOnlyThere) {
     put_objects_location(queue(), "/srv/a");
     put_objects_location(queue(), "/srv/b"); // by another program
-    EXPECT_THAT(refusal_of([&] { submit_logs(queue(), logs(1), "/srv/a"); }),
+    EXPECT_THAT(refusal_of([&] { submit(queue(), logs(1), "/srv/a"); }),
                 AllOf(HasSubstr("just submitted to /srv/b"), HasSubstr("expected /srv/a")));
     EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.job"), 0);
-    EXPECT_THAT(submit_logs(queue(), logs(1), "/srv/b"), ElementsAre(Submission::added));
+    EXPECT_THAT(submit(queue(), logs(1), "/srv/b"), ElementsAre(Submission::added));
 }
 
 TEST_F(JobQueue, QueuesParkedLogsAgainByTheDatabaseAlone) {
-    submit_logs(queue(), logs(2));
+    submit(queue(), logs(2));
     queue().run("UPDATE macadam.job SET attempts = 4");
     for (int i = 0; i < 2; ++i) {
         const auto taken = take_jobs(queue(), anna, 1, true);
@@ -500,7 +556,7 @@ TEST_F(JobQueue, CountsLogsByStateHoweverTheyCameToIt) {
         }
         EXPECT_EQ(work_status(queue(), 1).logs, expected) << when;
     };
-    submit_logs(queue(), logs(12));
+    submit(queue(), logs(12));
     expect_counts("submitted");
     const auto taken = take_jobs(queue(), anna, 10, false);
     ASSERT_THAT(taken, SizeIs(10));
@@ -512,7 +568,7 @@ TEST_F(JobQueue, CountsLogsByStateHoweverTheyCameToIt) {
     }
     finish_jobs(queue(), anna, ends);
     expect_counts("finished");
-    submit_logs(queue(), logs(12)); // those outside and refused come again
+    submit(queue(), logs(12)); // those outside and refused come again
     expect_counts("submitted again");
     queue().run("UPDATE macadam.job SET has_object = false,"
                 " finished_at = finished_at - interval '401 days'");
@@ -575,7 +631,7 @@ TEST_F(JobQueue, IsForImportersAndOperatorsAlone) {
     ServerConnection guest{server_.address(database_, "guest")};
     EXPECT_THAT(refusal_of([&] { work_status(guest, 1); }), HasSubstr("permission denied"));
     ServerConnection driver{server_.address(database_, "driver")};
-    submit_logs(driver, logs(2));
+    submit(driver, logs(2));
     begin_worker(driver, {.taker = anna, .results_version = 1}, false);
     EXPECT_THAT(take_jobs(driver, anna, 10, false), SizeIs(2));
 }
@@ -601,7 +657,7 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
     EXPECT_EQ(upgrade_server_schema(queue()), 1);
     EXPECT_EQ(upgrade_server_schema(queue()), server_schema_version);
     expect_server_schema(queue());
-    EXPECT_THAT(submit_logs(queue(), logs(1)), SizeIs(1));
+    EXPECT_THAT(submit(queue(), logs(1)), SizeIs(1));
     EXPECT_EQ(queue().number("SELECT coalesce(sum(trimmed_mm), 0) FROM macadam.trip"), 0);
     queue().run("INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms) VALUES (7, 3, 0)");
     EXPECT_EQ(queue().number("SELECT count(*) FROM macadam.chunk_dirty WHERE trip IN (0, 3)"), 2);
@@ -611,7 +667,7 @@ TEST_F(JobQueue, ComesToADatabaseOfAnEarlierSchemaByUpgrade) {
 }
 
 TEST_F(JobQueue, IsSearchedByItsIndexes) {
-    submit_logs(queue(), logs(2000));
+    submit(queue(), logs(2000));
     queue().run(
         "UPDATE macadam.job SET state = 'imported', finished_at = now() - interval '1 day',"
         " submitted_at = now() - interval '1 day' WHERE number > 20;"

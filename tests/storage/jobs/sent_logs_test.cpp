@@ -2,6 +2,7 @@
 
 #include "storage/jobs/sent_logs.hpp"
 
+#include "storage/jobs/announced_logs.hpp"
 #include "storage/jobs/server_tokens.hpp"
 #include "storage/store/server/server_schema.hpp"
 #include "support/files/files.hpp"
@@ -49,6 +50,7 @@ protected:
     static std::string trip(char digit) { return std::string(64, digit); }
 
     void send(const Job& log, const std::string& owner) {
+        announce_logs(queue(), std::vector{log});
         submit_logs(queue(), std::vector{log}, {}, owner);
     }
 
@@ -227,6 +229,7 @@ TEST_F(ServerTokens, AreMadeByOperatorsAloneAndReadByImporters) {
     EXPECT_THAT(refusal_of([&] { take_invitation(viewer, invitation, 10); }),
                 HasSubstr("permission denied"));
     EXPECT_EQ(revoke_tokens(chief, "ben"), 1U);
+    announce_logs(receiver, std::vector{log('a')});
     submit_logs(receiver, std::vector{log('a')}, {}, "anna");
     boss.run("UPDATE macadam.job SET state = 'imported', deleting = true");
     EXPECT_FALSE(has_deletions(receiver)); // to forget is the operator's
