@@ -3,9 +3,12 @@
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <unistd.h>
 
@@ -27,8 +30,50 @@ std::string lease_of(const JobTaker& taker) {
     return std::to_string(taker.lease.count());
 }
 
+std::int64_t count_living_workers(ServerConnection& server) {
+    return server.number(
+        "SELECT count(*) FROM macadam.worker WHERE seen_at > now() - lease_s * interval '1 s'");
+}
+
 constexpr const char* version_key = "results_version";
 constexpr const char* objects_key = "objects";
+
+/// The same folder, or prefix of a bucket, may be named with a slash at its end.
+std::string without_slash(std::string location) {
+    while (location.size() > 1 && location.ends_with('/')) {
+        location.pop_back();
+    }
+    return location;
+}
+
+/// \throws InputError  if a log lies in the object store, or a worker looks for them there.
+void expect_nothing_stored(ServerConnection& server, const std::string& location) {
+    std::vector<std::string> stored;
+    for (const auto& row :
+         server.rows("SELECT state, count(*) FROM macadam.job"
+                     " WHERE state IN ('queued', 'working', 'parked') GROUP BY state"
+                     " UNION ALL SELECT state, count(*) FROM macadam.job WHERE has_object"
+                     " AND state IN ('imported', 'known', 'outside', 'refused') GROUP BY state"
+                     " UNION ALL SELECT 'not queued so far', count(*) FROM macadam.announced_log"
+                     " HAVING count(*) > 0 ORDER BY 1")) {
+        stored.push_back(fmt::format("{} {}", row[1].value_or(""), row[0].value_or("")));
+    }
+    if (!stored.empty()) {
+        throw InputError{fmt::format("{}: logs lie in {}, where workers look for all logs: {}; "
+                                     "submit to it, or move it (docs/reference/workers.md)",
+                                     server.address(),
+                                     location,
+                                     fmt::join(stored, ", "))};
+    }
+    if (const auto workers = count_living_workers(server); workers > 0) {
+        throw InputError{
+            fmt::format("{}: {} still at work, and would go on looking for logs in "
+                        "{}; end them before another store is submitted to",
+                        server.address(),
+                        workers == 1 ? "a worker is" : fmt::format("{} workers are", workers),
+                        location)};
+    }
+}
 
 [[noreturn]] void refuse_other_results(const ServerConnection& server,
                                        const std::string& theirs,
@@ -71,8 +116,7 @@ void begin_worker(ServerConnection& server, const WorkerEntry& entry, bool takes
     ServerTransaction one{server};
     server.run("LOCK TABLE macadam.work_setting IN SHARE ROW EXCLUSIVE MODE"); // one at a time
     const auto theirs = setting(server, version_key);
-    const auto others = server.number(
-        "SELECT count(*) FROM macadam.worker WHERE seen_at > now() - lease_s * interval '1 s'");
+    const auto others = count_living_workers(server);
     if (theirs && *theirs != ours && (!takes_over || others > 0)) {
         refuse_other_results(
             server,
@@ -107,44 +151,37 @@ void end_worker(ServerConnection& server, const std::string& name) {
 }
 
 std::optional<std::string> objects_location(ServerConnection& server) {
-    return setting(server, objects_key);
+    auto location = setting(server, objects_key);
+    return location ? std::optional{without_slash(*std::move(location))} : std::nullopt;
 }
 
 void share_objects_location(ServerConnection& server, const std::string& location) {
     if (location.empty()) {
         return;
     }
-    const auto rows =
-        server.rows("SELECT value FROM macadam.work_setting WHERE key = 'objects' FOR SHARE");
-    if (rows.empty() || rows[0][0] != location) {
+    server.rows("SELECT FROM macadam.work_setting WHERE key = 'objects' FOR SHARE");
+    if (const auto last = objects_location(server); last != without_slash(location)) {
         throw InputError{fmt::format("{}: somebody else has just submitted to {}, where workers "
                                      "look for all logs; expected {}: submit to the same store",
                                      server.address(),
-                                     rows.empty() ? "no store" : rows[0][0].value_or(""),
+                                     last.value_or("no store"),
                                      location)};
     }
 }
 
 void put_objects_location(ServerConnection& server, const std::string& location) {
-    if (objects_location(server) == location) {
+    const auto next = without_slash(location);
+    if (objects_location(server) == next) {
         return;
     }
     ServerTransaction one{server};
     server.run("LOCK TABLE macadam.work_setting IN SHARE ROW EXCLUSIVE MODE"); // one at a time
-    const auto row = server.rows("SELECT value FROM macadam.work_setting WHERE key = $1 FOR UPDATE",
-                                 {objects_key}); // share_objects_location()
-    const auto last = row.empty() ? std::nullopt : row[0][0];
-    const auto waiting =
-        server.number("SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')");
-    if (last && *last != location && waiting > 0) {
-        throw InputError{fmt::format("{}: {} in {}, where workers look for all logs; submit to it, "
-                                     "or wait until nothing waits",
-                                     server.address(),
-                                     waiting == 1 ? std::string{"a log waits"}
-                                                  : fmt::format("{} logs wait", waiting),
-                                     *last)};
+    server.rows("SELECT FROM macadam.work_setting WHERE key = $1 FOR UPDATE",
+                {objects_key}); // share_objects_location() waits, or is waited for
+    if (const auto last = objects_location(server); last && *last != next) {
+        expect_nothing_stored(server, *last);
     }
-    put_setting(server, objects_key, location);
+    put_setting(server, objects_key, next);
     one.commit();
 }
 

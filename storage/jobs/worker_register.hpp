@@ -53,7 +53,8 @@ std::optional<std::string> objects_location(ServerConnection& server);
 /// \throws InputError  if it is another one.
 void share_objects_location(ServerConnection& server, const std::string& location);
 /// Waits for those who submit just now.
-/// \throws InputError  if it differs from the last one, where logs still wait.
+/// \throws InputError  if it differs from the last one, where logs still lie, whatever became of
+///                     them, or which a worker that lives has open.
 void put_objects_location(ServerConnection& server, const std::string& location);
 
 } // namespace macadam

@@ -476,14 +476,38 @@ TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
     EXPECT_EQ(submit(queue(), std::span{taken}.first(1)).at(0), Submission::added);
 }
 
-TEST_F(JobQueue, KeepsTheLogsThatWaitInOneStore) {
+TEST_F(JobQueue, KeepsItsStoreWhileAnyLogLiesThere) {
     EXPECT_FALSE(objects_location(queue()).has_value());
     put_objects_location(queue(), "/srv/a");
     put_objects_location(queue(), "/srv/b");
-    submit(queue(), logs(1));
+    const auto expect_refusal = [&](const std::string& why) {
+        put_objects_location(queue(), "/srv/b/"); // the same
+        EXPECT_THAT(refusal_of([&] { put_objects_location(queue(), "/srv/a"); }),
+                    HasSubstr("lie in /srv/b, where workers look for all logs: " + why + ";"));
+        EXPECT_EQ(objects_location(queue()), "/srv/b");
+    };
+    announce_logs(queue(), logs(2), "/srv/b");
+    expect_refusal("2 not queued so far");
+    submit_logs(queue(), logs(2), "/srv/b");
+    queue().rows("UPDATE macadam.job SET state = 'parked' WHERE sha256 = $1", {logs(1)[0].sha256});
+    expect_refusal("1 parked, 1 queued");
+    for (const auto state : all_upload_states) {
+        queue().rows("UPDATE macadam.job SET state = $1, has_object = true",
+                     {std::string{name_of(state)}});
+        expect_refusal(fmt::format("2 {}", name_of(state)));
+    }
+    queue().run("UPDATE macadam.job SET state = 'imported', has_object = false");
+    put_objects_location(queue(), "/srv/a");
+    EXPECT_EQ(objects_location(queue()), "/srv/a");
+}
+
+TEST_F(JobQueue, KeepsItsStoreWhileAWorkerHasItOpen) {
+    put_objects_location(queue(), "/srv/a");
+    begin_worker(queue(), {.taker = anna, .results_version = 1}, false);
+    EXPECT_THAT(refusal_of([&] { put_objects_location(queue(), "/srv/b"); }),
+                HasSubstr("a worker is still at work, and would go on looking for logs in /srv/a"));
+    end_worker(queue(), "anna");
     put_objects_location(queue(), "/srv/b");
-    EXPECT_THAT(refusal_of([&] { put_objects_location(queue(), "/srv/a"); }),
-                HasSubstr("a log waits in /srv/b"));
     EXPECT_EQ(objects_location(queue()), "/srv/b");
 }
 
