@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/common/exact_number.hpp"
+#include "storage/jobs/job_schema.hpp"
 #include "storage/jobs/worker_register.hpp"
 
 #include <fmt/format.h>
@@ -356,23 +357,26 @@ void sum_job_counts(ServerConnection& server) {
 }
 
 std::vector<Job> end_forgotten_jobs(ServerConnection& server) {
-    // The mark is that of forgotten_mark() (storage/store/rows/known_trips.hpp).
-    constexpr const char* mark =
-        "encode(sha256(convert_to('macadam forgot ' || {}, 'UTF8')), 'hex')";
     return jobs_in(server.rows(fmt::format(
-        "UPDATE macadam.job SET state = 'known', finished_at = now(), lease_until = NULL,"
-        " worker = NULL, has_object = true, not_before = now(), reason = '{}' WHERE sha256 IN"
-        " (SELECT job FROM macadam.job_trip JOIN macadam.forgotten ON mark = {}"
-        " UNION SELECT sha256 FROM macadam.job JOIN macadam.forgotten ON mark = {})"
-        " RETURNING {}",
+        "WITH ending AS (SELECT sha256 FROM macadam.job WHERE sha256 IN"
+        " (SELECT job FROM macadam.forgotten JOIN macadam.job_trip ON {} = mark"
+        " UNION SELECT sha256 FROM macadam.forgotten JOIN macadam.job ON {} = mark)"
+        " ORDER BY sha256 FOR UPDATE)"
+        " UPDATE macadam.job SET state = 'known', finished_at = now(), lease_until = NULL,"
+        " worker = NULL, has_object = true, not_before = now(), reason = '{}'"
+        " FROM ending WHERE job.sha256 = ending.sha256 RETURNING job.{}",
+        mark_expression("trip"),
+        mark_expression("sha256"),
         forgotten_reason,
-        fmt::format(fmt::runtime(mark), "trip"),
-        fmt::format(fmt::runtime(mark), "sha256"),
         job_columns)));
 }
 
 void remove_forgotten_jobs(ServerConnection& server, std::span<const Job> jobs) {
-    server.rows(fmt::format("DELETE FROM macadam.job WHERE sha256 = ANY($1) {}", was_forgotten),
+    server.rows(fmt::format("WITH ended AS (SELECT sha256 FROM macadam.job"
+                            " WHERE sha256 = ANY($1) {} ORDER BY sha256 FOR UPDATE)"
+                            " DELETE FROM macadam.job USING ended"
+                            " WHERE job.sha256 = ended.sha256",
+                            was_forgotten),
                 {hashes_of(jobs)});
 }
 

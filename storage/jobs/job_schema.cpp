@@ -2,6 +2,8 @@
 
 #include "storage/postgres/role_grants.hpp"
 
+#include <fmt/format.h>
+
 namespace macadam {
 namespace {
 
@@ -161,6 +163,22 @@ std::string job_count_schema() {
 std::string announced_log_schema() {
     return announced_logs + granting("SELECT, INSERT, UPDATE, DELETE ON macadam.announced_log",
                                      {"macadam_importer", "macadam_operator"});
+}
+
+std::string mark_expression(std::string_view hash) {
+    // convert_to() would depend on the encoding of the database, which an index must not.
+    return fmt::format("encode(sha256(('macadam forgot ' || {})::bytea), 'hex')", hash);
+}
+
+std::string forgotten_log_schema() {
+    return fmt::format(R"sql(
+CREATE INDEX IF NOT EXISTS job_mark ON macadam.job USING hash (({}));
+CREATE INDEX IF NOT EXISTS job_trip_mark ON macadam.job_trip USING hash (({}));
+COMMENT ON INDEX macadam.job_mark IS 'Logs by the mark that they have in table forgotten, if they are a forgotten trip';
+COMMENT ON INDEX macadam.job_trip_mark IS 'Trips of logs by the mark that they have in table forgotten, if they are forgotten';
+)sql",
+                       mark_expression("sha256"),
+                       mark_expression("trip"));
 }
 
 std::string job_trip_schema() {

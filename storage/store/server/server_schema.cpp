@@ -98,7 +98,7 @@ std::vector<Migration> migrations() {
     all.push_back({10, "counts of logs", job_count_schema()});
     all.push_back({11, "narrower rights", narrow_rights_migration_sql});
     all.push_back({12, "tokens and senders of logs", upload_schema()});
-    all.push_back({13, "announced logs", announced_log_schema()});
+    all.push_back({13, "announced logs", announced_log_schema() + forgotten_log_schema()});
     return all;
 }
 

@@ -3,6 +3,7 @@
 #include "storage/jobs/job_queue.hpp"
 
 #include "storage/jobs/announced_logs.hpp"
+#include "storage/jobs/job_schema.hpp"
 #include "storage/jobs/work_status.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/store/rows/known_trips.hpp"
@@ -698,13 +699,20 @@ TEST_F(JobQueue, IsSearchedByItsIndexes) {
         " UPDATE macadam.job SET state = 'refused' WHERE number > 1990;"
         " INSERT INTO macadam.chunk_dirty (chunk, trip, since_ms) SELECT chunk, trip, 0 FROM"
         " generate_series(1, 5000) AS chunk, generate_series(1, 4) AS trip;"
-        " ANALYZE macadam.job, macadam.chunk_dirty");
+        " INSERT INTO macadam.job_trip SELECT sha256, sha256 FROM macadam.job;"
+        " INSERT INTO macadam.forgotten SELECT encode(sha256(number::text::bytea), 'hex')"
+        " FROM generate_series(1, 3) AS number;"
+        " ANALYZE macadam.job, macadam.job_trip, macadam.forgotten, macadam.chunk_dirty");
     const auto expect_plan = [&](const std::string& index, const std::string& query) {
         std::string plan;
         for (const auto& row : queue().rows("EXPLAIN " + query)) {
             plan += row[0].value_or("") + "\n";
         }
-        EXPECT_THAT(plan, AllOf(HasSubstr(index), Not(HasSubstr("Seq Scan")))) << plan;
+        EXPECT_THAT(plan,
+                    AllOf(HasSubstr(index),
+                          Not(HasSubstr("Seq Scan on job")),
+                          Not(HasSubstr("Seq Scan on chunk_dirty"))))
+            << plan;
     };
     for (const auto& [begun, index] :
          std::map<std::string, std::string>{{"= 0", "job_new"}, {"> 0", "job_begun"}}) {
@@ -733,6 +741,16 @@ TEST_F(JobQueue, IsSearchedByItsIndexes) {
     expect_plan("job_open",
                 "SELECT count(*) FROM macadam.job WHERE state IN ('queued', 'working')"
                 " AND number <= 1000");
+    // As end_forgotten_jobs() asks.
+    const auto of_forgotten =
+        fmt::format("SELECT sha256 FROM macadam.job WHERE sha256 IN"
+                    " (SELECT job FROM macadam.forgotten JOIN macadam.job_trip ON {} = mark"
+                    " UNION SELECT sha256 FROM macadam.forgotten JOIN macadam.job ON {} = mark)"
+                    " ORDER BY sha256 FOR UPDATE",
+                    mark_expression("trip"),
+                    mark_expression("sha256"));
+    expect_plan("job_mark", of_forgotten);
+    expect_plan("job_trip_mark", of_forgotten);
     expect_plan("Index Only Scan using chunk_dirty_pkey",
                 "SELECT DISTINCT chunk FROM macadam.chunk_dirty ORDER BY chunk LIMIT 1000");
 }
