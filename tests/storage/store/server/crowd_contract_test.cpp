@@ -2,6 +2,7 @@
 // PostgreSQL, beside a file of the same key.
 
 #include "mapping/conflation/network_conflation.hpp"
+#include "storage/jobs/job_queue.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "storage/store/rows/known_trips.hpp"
 #include "storage/store/server/copy/store_copy.hpp"
@@ -32,6 +33,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
 
 constexpr int road_count = 8;
 
@@ -325,6 +327,17 @@ TEST(CrowdOnAServer, GoesThereAndBackWithItsPublications) {
     }
 }
 
+/// Takes a forgotten trip out again, as after a restore. \returns what the script said.
+std::string
+forget_again(const fs::path& folder, const EngineDatabase& database, const std::string& sha256) {
+    write_file(folder / "forgotten.txt", forgotten_mark(sha256) + "\n");
+    return output_of(folder,
+                     fmt::format("psql -X '{}' -f {}/packaging/cluster/forget_listed.sql < {}",
+                                 database.name(),
+                                 source_folder(),
+                                 (folder / "forgotten.txt").string()));
+}
+
 TEST(CrowdOnAServer, LosesForgottenTripsThatWaitToBePublishedAgainAfterARestore) {
     const auto folder = test_folder();
     EngineDatabase database{
@@ -334,18 +347,43 @@ TEST(CrowdOnAServer, LosesForgottenTripsThatWaitToBePublishedAgainAfterARestore)
     server.run("INSERT INTO macadam.published_pending (segment, trip, occurrence)"
                " SELECT (SELECT min(fid) FROM macadam.segment), id, 0 FROM macadam.trip");
     const auto trip = server.rows("SELECT id, sha256 FROM macadam.trip ORDER BY id LIMIT 1").at(0);
-    write_file(folder / "forgotten.txt", forgotten_mark(trip[1].value_or("")) + "\n");
-    const auto said =
-        output_of(folder,
-                  fmt::format("psql -X '{}' -f {}/packaging/cluster/forget_listed.sql < {}",
-                              database.name(),
-                              source_folder(),
-                              (folder / "forgotten.txt").string()));
-    EXPECT_THAT(said, AllOf(HasSubstr("COMMIT"), Not(HasSubstr("ERROR"))));
+    EXPECT_THAT(forget_again(folder, database, trip[1].value_or("")),
+                AllOf(HasSubstr("COMMIT"), Not(HasSubstr("ERROR")), Not(HasSubstr("calibrate"))));
     EXPECT_EQ(server.number("SELECT count(*) FROM macadam.trip"), 2);
     EXPECT_EQ(server.number("SELECT count(*) FROM macadam.published_pending"), 2);
     fuse_all(*database.import().trips);
     EXPECT_THAT(values_of(database.read()), Not(IsEmpty()));
+}
+
+TEST(CrowdOnAServer, LosesLogsOfForgottenTripsAgainAfterARestore) {
+    const auto folder = test_folder();
+    EngineDatabase database{
+        Engine::postgresql, folder, roads_in_a_row(road_count), of(PrivacyProfile::crowd)};
+    drive_in_january(database, 2);
+    ServerConnection server{database.name()};
+    server.run("INSERT INTO macadam.job (sha256, suffix, bytes, owner, state, has_object)"
+               " SELECT repeat(digit, 64), '.zip', 1, 'anna', 'imported', false"
+               " FROM (VALUES ('a'), ('b')) AS log (digit);" // an archive of each trip
+               " INSERT INTO macadam.job_trip SELECT trip.sha256, job.sha256, true FROM macadam.job"
+               " JOIN macadam.trip ON trip.id = job.number;"
+               " INSERT INTO macadam.job (sha256, suffix, bytes)" // also waits as it is
+               " SELECT sha256, '.trip.csv', 1 FROM macadam.trip WHERE id = 1;"
+               " UPDATE macadam.trip SET calibrates = 1");
+    ASSERT_EQ(server.number("SELECT count(*) FROM macadam.job_trip"), 2);
+    const auto trip =
+        server.rows("SELECT sha256 FROM macadam.trip WHERE id = 1").at(0)[0].value_or("");
+    EXPECT_THAT(forget_again(folder, database, trip),
+                AllOf(HasSubstr("COMMIT"),
+                      Not(HasSubstr("ERROR")),
+                      HasSubstr("Cars were calibrated from 1 of these trips: run 'macadam "
+                                "calibrate' on the database")));
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job_trip"), 1);
+    std::vector<std::string> leaving; // workers erase these, wherever they still are
+    for (const auto& job : jobs_to_erase(server, 10, ErasedLogs::forgotten)) {
+        leaving.push_back(job.sha256);
+    }
+    EXPECT_THAT(leaving, UnorderedElementsAre(std::string(64, 'a'), trip));
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job WHERE state = 'imported'"), 1);
 }
 
 TEST(CrowdOnAServer, UsesNoRowOfASegmentTwice) {
