@@ -317,8 +317,10 @@ void put_back_jobs(ServerConnection& server,
 }
 
 void put_back_all(ServerConnection& server, const JobTaker& taker) {
-    server.rows("UPDATE macadam.job SET state = 'queued', attempts = attempts - 1,"
-                " lease_until = NULL WHERE worker = $1 AND state = 'working'",
+    server.rows("WITH mine AS (SELECT sha256 FROM macadam.job WHERE worker = $1"
+                " AND state = 'working' ORDER BY sha256 FOR UPDATE)"
+                " UPDATE macadam.job SET state = 'queued', attempts = attempts - 1,"
+                " lease_until = NULL FROM mine WHERE job.sha256 = mine.sha256",
                 {taker.worker});
 }
 

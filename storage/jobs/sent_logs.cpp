@@ -126,10 +126,13 @@ std::vector<std::string> trips_to_delete(ServerConnection& server, std::size_t l
 }
 
 void end_deleted_jobs(ServerConnection& server) {
-    server.run(fmt::format("UPDATE macadam.job SET {} WHERE deleting"
-                           " AND state NOT IN ('queued', 'working') AND NOT EXISTS ({})",
-                           ended_as_deleted,
-                           its_trips));
+    server.run(fmt::format("WITH ending AS (SELECT sha256 FROM macadam.job WHERE deleting"
+                           " AND state NOT IN ('queued', 'working') AND NOT EXISTS ({})"
+                           " ORDER BY sha256 FOR UPDATE)"
+                           " UPDATE macadam.job SET {} FROM ending"
+                           " WHERE job.sha256 = ending.sha256",
+                           its_trips,
+                           ended_as_deleted));
 }
 
 } // namespace macadam

@@ -4,6 +4,7 @@
 
 #include "storage/jobs/announced_logs.hpp"
 #include "storage/jobs/job_schema.hpp"
+#include "storage/jobs/sent_logs.hpp"
 #include "storage/jobs/work_status.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/store/rows/known_trips.hpp"
@@ -16,10 +17,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <future>
 #include <map>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -91,6 +94,31 @@ protected:
             .rows("SELECT reason FROM macadam.job WHERE sha256 = $1", {job.sha256})
             .at(0)[0]
             .value_or("NULL");
+    }
+
+    /// Hashes of logs(100), to lie in a table in another order than their own.
+    static constexpr const char* reversed_hashes =
+        "SELECT lpad(to_hex(number), 64, '0') AS sha256 FROM generate_series(99, 0, -1) AS number";
+
+    /// Submits logs(100) while `change` locks them, too: each has some of them, and waits for one
+    /// in the middle that a third has, before they go on.
+    void expect_no_deadlock(const std::string& table,
+                            const std::function<void(ServerConnection&)>& change) {
+        queue().run("ANALYZE macadam." + table);
+        const auto all = logs(100);
+        ServerConnection third{address_}, other{address_}, watch{address_};
+        std::optional<ServerTransaction> holding{third};
+        third.rows(fmt::format("SELECT FROM macadam.{} WHERE sha256 = $1 FOR UPDATE", table),
+                   {all[50].sha256});
+        auto changed = std::async(std::launch::async, [&] { change(other); });
+        auto submitted = std::async(std::launch::async, [&] { submit_logs(queue(), all); });
+        while (watch.number("SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
+                            " AND datname = current_database()") < 2) {
+            std::this_thread::sleep_for(1ms);
+        }
+        holding.reset();
+        EXPECT_NO_THROW(changed.get());
+        EXPECT_NO_THROW(submitted.get());
     }
 
     static PostgresServer& one_server() {
@@ -433,22 +461,32 @@ TEST_F(JobQueue, QueuesNoRefusedLogAgainWhoseObjectWasErased) {
 }
 
 TEST_F(JobQueue, TakesLogsWhileSomebodyElseAnnouncesThem) {
-    const auto all = logs(100);
-    // In the table they lie in another order than that of their hashes.
-    queue().run("INSERT INTO macadam.announced_log (sha256) SELECT lpad(to_hex(number), 64, '0')"
-                " FROM generate_series(99, 0, -1) AS number; ANALYZE macadam.announced_log");
-    ServerConnection third{address_}, other{address_}, watch{address_};
-    std::optional<ServerTransaction> holding{third};
-    third.rows("SELECT FROM macadam.announced_log WHERE sha256 = $1 FOR UPDATE", {all[50].sha256});
-    auto announced = std::async(std::launch::async, [&] { announce_logs(other, all); });
-    auto submitted = std::async(std::launch::async, [&] { return submit_logs(queue(), all); });
-    while (watch.number("SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
-                        " AND datname = current_database()") < 2) {
-        std::this_thread::sleep_for(1ms);
+    queue().run(fmt::format("INSERT INTO macadam.announced_log (sha256) {}", reversed_hashes));
+    expect_no_deadlock("announced_log",
+                       [](ServerConnection& server) { announce_logs(server, logs(100)); });
+}
+
+TEST_F(JobQueue, TakesLogsWhileSomebodyElseChangesThem) {
+    const std::vector<std::pair<std::string, std::function<void(ServerConnection&)>>> changes{
+        {"state = 'working', attempts = 1, worker = 'anna'",
+         [](ServerConnection& server) { put_back_all(server, anna); }},
+        {"state = 'outside', deleting = true", end_deleted_jobs},
+        {"state = 'outside'", [](ServerConnection& server) { end_forgotten_jobs(server); }},
+        {"state = 'known', reason = 'permanently deleted'",
+         [](ServerConnection& server) { remove_forgotten_jobs(server, logs(100)); }}};
+    for (const auto& log : logs(100)) {
+        queue().rows("INSERT INTO macadam.forgotten VALUES ($1)", {forgotten_mark(log.sha256)});
     }
-    holding.reset();
-    announced.get(); // throws if the two waited for each other
-    EXPECT_THAT(submitted.get(), Each(Submission::added));
+    for (const auto& [state, change] : changes) {
+        queue().run(fmt::format("TRUNCATE macadam.job CASCADE;"
+                                " INSERT INTO macadam.job (sha256, suffix, bytes)"
+                                " SELECT sha256, '.trip.csv', 1 FROM ({}) AS log;"
+                                " UPDATE macadam.job SET {}",
+                                reversed_hashes,
+                                state));
+        announce_logs(queue(), logs(100));
+        expect_no_deadlock("job", change);
+    }
 }
 
 TEST_F(JobQueue, ForgetsLogsThatWereDoneLongAgo) {
