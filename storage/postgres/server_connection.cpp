@@ -4,6 +4,7 @@
 #include "estimator/common/utf8.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/postgres/server_result.hpp"
+#include "storage/postgres/sqlstate.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/format.h>
@@ -33,28 +34,6 @@ std::string shown(std::string_view words) {
     }
     const auto quoted = in_quotes(words, longest_words);
     return quoted.size() >= 2 ? quoted.substr(1, quoted.size() - 2) : quoted;
-}
-
-/// What to do about an error with this SQLSTATE.
-std::string_view advice_for(std::string_view state) {
-    if (state == "42501") { // insufficient_privilege
-        return "; the role needs more rights: its owner grants macadam_operator "
-               "(docs/reference/postgresql.md)";
-    }
-    if (state == "0A000" || state == "58P01" || state == "22023") {
-        return "";
-    }
-    if (state == "53100" || state == "53200") {
-        return "; nothing was changed, run the command again when the server has room";
-    }
-    return "";
-}
-
-/// Tests for classes of SQLSTATE that tell nothing about what was asked. Source: PostgreSQL 15,
-/// appendix A.
-bool is_trouble(std::string_view state) {
-    return state.empty() || state.starts_with("08") || state.starts_with("53") ||
-           state.starts_with("57P") || state.starts_with("58");
 }
 
 constexpr std::string_view refused = "the server refused";

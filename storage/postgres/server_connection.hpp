@@ -31,7 +31,7 @@ struct ServerStatement {
 };
 
 /// Trouble of the server or the way to it, whatever it was asked: no connection, no room, an end by
-/// its operator, a standby that is missed.
+/// its operator or by a limit of time, a deadlock, a standby that is missed.
 struct ServerTrouble : InputError {
     using InputError::InputError;
 };

@@ -267,6 +267,39 @@ TEST(Workers, GoOnWhereAllTheirConnectionsBroke) {
     expect_all_imported(world, trips);
 }
 
+TEST(Workers, ParkNoLogWhileTheirStatementsAreCancelled) {
+    WorkerWorld world;
+    world.make_trips(2);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    ServerConnection server{world.address};
+    server.run("UPDATE macadam.job SET attempts = 4"); // another one would be the last
+    ServerConnection holder{world.address};
+    holder.begin(false);
+    holder.run("LOCK TABLE macadam.trip IN SHARE MODE"); // each import waits
+    auto words = world.worker_words();
+    std::erase(words, "--once");
+    PipedProgram worker{words};
+    for (std::int64_t cancelled = 0; cancelled < 3;) { // the test's time limit ends it
+        std::this_thread::sleep_for(100ms);
+        cancelled += server.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity"
+                                   " WHERE wait_event_type = 'Lock'"
+                                   " AND datname = current_database()");
+    }
+    holder.roll_back();
+    while (server.number("SELECT count(*) FROM macadam.job WHERE finished_at IS NULL") > 0) {
+        std::this_thread::sleep_for(100ms);
+    }
+    worker.signal(SIGTERM);
+    const auto done = worker.wait();
+    EXPECT_EQ(done.exit_status, 0);
+    EXPECT_THAT(done.err, HasSubstr("canceling statement due to user request"));
+    EXPECT_EQ(server.number("SELECT count(*) FROM macadam.job WHERE state = 'imported'"
+                            " AND attempts = 5"), // as if none had been cancelled
+              2);
+    EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0); // fuses
+    expect_all_imported(world, 2);
+}
+
 TEST(Workers, EndWithWordsOnceOthersTookOverMeanwhile) {
     WorkerWorld world;
     constexpr std::size_t trips = 30;

@@ -104,6 +104,30 @@ TEST_F(ServerConnections, BeginTransactionsWithTheirFirstStatement) {
     EXPECT_EQ(server_.number("SELECT count(*) FROM public.number"), 0); // one moment
 }
 
+TEST_F(ServerConnections, TellTroubleOfTheServerFromWhatItRefuses) {
+    const auto fail_with = [&](const std::string& state) {
+        server_.run("DO $$ BEGIN RAISE 'so it ended' USING ERRCODE = '" + state + "'; END $$");
+    };
+    for (const auto* const state : {"57014", "40001", "40P01", "55P03", "25P03"}) {
+        EXPECT_THAT([&] { fail_with(state); },
+                    ThrowsMessage<ServerTrouble>(HasSubstr("so it ended; run the command again")))
+            << state;
+    }
+    for (const auto* const state : {"08006", "53300", "57P01", "58030"}) {
+        EXPECT_THROW(fail_with(state), ServerTrouble) << state;
+    }
+    for (const auto* const state : {"23505", "42P01", "22012", "25P02"}) {
+        try {
+            fail_with(state);
+            ADD_FAILURE() << state;
+        } catch (const ServerTrouble&) {
+            ADD_FAILURE() << state;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("so it ended"));
+        }
+    }
+}
+
 TEST_F(ServerConnections, TakeArraysOfAnyText) {
     const std::vector<std::optional<std::string_view>> texts{
         "plain", "", "NULL", "a,b", "{c}", R"(quo"ted)", R"(back\slash)", "ä", std::nullopt};
