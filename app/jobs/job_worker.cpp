@@ -14,6 +14,7 @@
 #include "storage/jobs/sent_logs.hpp"
 #include "storage/jobs/worker_register.hpp"
 #include "storage/objects/object_store.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/store/server/cells/cell_drives.hpp"
 
 #include <fmt/format.h>
@@ -307,14 +308,18 @@ private:
         erase_unsubmitted();
     }
 
+    /// Removes logs from the object store, which may be slow, within a transaction of the queue.
+    void erase(const std::vector<std::string>& logs) {
+        SignOfLife life{*queue_};
+        for (const auto& sha256 : logs) {
+            call_objects([&] { stores_.front()->remove(sha256); });
+            life.give();
+        }
+    }
+
     void erase_unsubmitted() {
         ServerTransaction all{*queue_};
-        const auto logs = end_old_announcements(*queue_, max_erased);
-        call_objects([&] {
-            for (const auto& sha256 : logs) {
-                stores_.front()->remove(sha256);
-            }
-        });
+        erase(end_old_announcements(*queue_, max_erased));
         all.commit();
     }
 
@@ -329,11 +334,11 @@ private:
             return false;
         }
         note_erased(*queue_, done);
-        call_objects([&] {
-            for (const auto& job : done) {
-                stores_.front()->remove(job.sha256);
-            }
-        });
+        std::vector<std::string> logs;
+        for (const auto& job : done) {
+            logs.push_back(job.sha256);
+        }
+        erase(logs);
         all.commit();
         objects_answered();
         return done.size() == max_erased;

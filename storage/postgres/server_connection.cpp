@@ -2,6 +2,7 @@
 
 #include "estimator/common/exact_number.hpp"
 #include "estimator/common/utf8.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/postgres/server_result.hpp"
 #include "storage/postgres/sqlstate.hpp"
@@ -121,6 +122,7 @@ ServerConnection::ServerConnection(std::string address)
     run("SET search_path = pg_catalog");
     run("SET bytea_output = hex; SET DateStyle = ISO; SET TimeZone = UTC");
     run("SET jit = off"); // 0.4 s for statements of 10 ms
+    limit_idle_time(*this);
 }
 
 bool ServerConnection::is_superuser() const {
@@ -151,15 +153,11 @@ class ServerConnection::Pipeline {
 public:
     explicit Pipeline(ServerConnection& server)
         : server_{&server}, is_sent_{PQenterPipelineMode(server.handle()) == 1} {
-        if (!server.begin_.empty()) {
-            is_sent_ = is_sent_ && PQsendQueryParams(server.handle(),
-                                                     std::exchange(server.begin_, {}).c_str(),
-                                                     0,
-                                                     nullptr,
-                                                     nullptr,
-                                                     nullptr,
-                                                     nullptr,
-                                                     0) == 1;
+        for (const auto& sql : std::exchange(server.begin_, {})) {
+            is_sent_ =
+                is_sent_ &&
+                PQsendQueryParams(
+                    server.handle(), sql.c_str(), 0, nullptr, nullptr, nullptr, nullptr, 0) == 1;
             requests_.push_back({Request::begin, {}});
         }
     }
@@ -253,7 +251,11 @@ private:
 };
 
 std::string ServerConnection::with_begin(const std::string& sql) {
-    return std::exchange(begin_, {}) + sql;
+    std::string all;
+    for (const auto& begin : std::exchange(begin_, {})) {
+        all += begin;
+    }
+    return all + sql;
 }
 
 void ServerConnection::run(const std::string& sql) {
@@ -325,10 +327,15 @@ std::int64_t ServerConnection::number(const std::string& sql) {
     return found.front();
 }
 
-// Not as the role or database has it by default: who fuses reads drives after the marks.
+// Isolation is not as the role or database has it by default: who fuses reads drives after the
+// marks. Who reads holds nobody up, and may write files or compute for long meanwhile, also between
+// the rows of an answer.
 void ServerConnection::begin(bool reads_only) {
-    begin_ = reads_only ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY;"
-                        : "BEGIN ISOLATION LEVEL READ COMMITTED;";
+    begin_ = reads_only
+                 ? std::vector<std::string>{"BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY;",
+                                            "SET LOCAL idle_in_transaction_session_timeout = 0;",
+                                            "SET LOCAL tcp_user_timeout = 0;"}
+                 : std::vector<std::string>{"BEGIN ISOLATION LEVEL READ COMMITTED;"};
 }
 
 void ServerConnection::commit(std::span<const ServerStatement> last) {

@@ -79,7 +79,7 @@ public:
     std::int64_t number(const std::string& sql);
 
     /// Begins a transaction, with the first statement in it. A reading one sees one moment until
-    /// its end.
+    /// its end, and may be idle for any time; others: idle_limit.hpp.
     void begin(bool reads_only);
 
     /// Runs some last statements and commits, with one round trip. A server that gives up waiting
@@ -114,7 +114,7 @@ private:
     class Pipeline;
 
     std::string address_;
-    std::string begin_;                                     ///< that waits for a first statement
+    std::vector<std::string> begin_; ///< of a transaction that waits for its first statement
     std::unordered_map<std::string, std::string> prepared_; ///< name of each, by its text
     std::unique_ptr<std::vector<std::string>> warnings_;    ///< fixed address for the callback
     std::unique_ptr<pg_conn, Finish> connection_;

@@ -4,6 +4,7 @@
 #include "storage/files/sha256.hpp"
 #include "storage/jobs/announced_logs.hpp"
 #include "storage/objects/object_store.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/postgres/server_connection.hpp"
 #include "support/program/piped_program.hpp"
 #include "support/s3/s3_service.hpp"
@@ -275,6 +276,7 @@ TEST(Workers, ParkNoLogWhileTheirStatementsAreCancelled) {
     server.run("UPDATE macadam.job SET attempts = 4"); // another one would be the last
     ServerConnection holder{world.address};
     holder.begin(false);
+    set_idle_limit(holder, "0");
     holder.run("LOCK TABLE macadam.trip IN SHARE MODE"); // each import waits
     auto words = world.worker_words();
     std::erase(words, "--once");
@@ -298,6 +300,37 @@ TEST(Workers, ParkNoLogWhileTheirStatementsAreCancelled) {
               2);
     EXPECT_EQ(run_macadam(world.worker_words()).exit_status, 0); // fuses
     expect_all_imported(world, 2);
+}
+
+TEST(Workers, GoOnBesideOneThatStandsStillWhileItFuses) {
+    WorkerWorld world;
+    world.make_trips(2);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    ServerConnection server{world.address};
+    server.run("DO $$ BEGIN EXECUTE format('ALTER DATABASE %I SET"
+               " idle_in_transaction_session_timeout = ''3s''', current_database()); END $$");
+    ServerConnection holder{world.address};
+    holder.begin(false);
+    set_idle_limit(holder, "0");
+    holder.run("LOCK TABLE macadam.chunk_change IN SHARE MODE"); // which fusion writes in the end
+    auto words = world.worker_words();
+    std::erase(words, "--once");
+    PipedProgram frozen{words};
+    while (server.number("SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
+                         " AND query LIKE '%chunk_change%'") == 0) {
+        std::this_thread::sleep_for(50ms); // the test's time limit ends it
+    }
+    frozen.signal(SIGSTOP);
+    holder.commit();
+
+    world.make_trips(3);
+    ASSERT_EQ(run_macadam(world.submit_words()).exit_status, 0);
+    const auto other = run_macadam(world.worker_words());
+    EXPECT_EQ(other.exit_status, 0) << other.err;
+    expect_all_imported(world, 3);
+    frozen.signal(SIGCONT);
+    frozen.signal(SIGTERM);
+    EXPECT_EQ(frozen.wait().exit_status, 0);
 }
 
 TEST(Workers, EndWithWordsOnceOthersTookOverMeanwhile) {

@@ -1,5 +1,6 @@
 #include "storage/postgres/server_connection.hpp"
 
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/postgres/server_array.hpp"
 #include "support/program/postgres_server.hpp"
 
@@ -126,6 +127,30 @@ TEST_F(ServerConnections, TellTroubleOfTheServerFromWhatItRefuses) {
             EXPECT_THAT(error.what(), HasSubstr("so it ended"));
         }
     }
+}
+
+TEST_F(ServerConnections, AreEndedByTheServerWhenTheyStandStillInATransaction) {
+    ServerConnection frozen{address_ + "&options=-c%20idle_in_transaction_session_timeout%3D100ms"};
+    ServerTransaction one{frozen};
+    frozen.rows_of_all(std::array{with(insert_, 1)});
+    server_.run("INSERT INTO public.number VALUES (1)"); // waits until the other row is gone
+    EXPECT_THAT([&] { one.commit(); }, ThrowsMessage<ServerTrouble>(HasSubstr("in doubt")));
+}
+
+TEST_F(ServerConnections, LimitHowLongTransactionsAreIdleUnlessTheAdministratorDoes) {
+    const std::string limit = "SELECT current_setting('idle_in_transaction_session_timeout')";
+    EXPECT_EQ(server_.rows(limit).at(0).at(0), "1min");
+    ServerConnection patient{address_ + "&options=-c%20idle_in_transaction_session_timeout%3D1h"};
+    EXPECT_EQ(patient.rows(limit).at(0).at(0), "1h");
+    {
+        ServerTransaction one{server_};
+        EXPECT_EQ(set_idle_limit(server_, "0"), "1min");
+        EXPECT_EQ(server_.rows(limit).at(0).at(0), "0");
+        EXPECT_EQ(set_idle_limit(server_, "1min"), "0");
+    }
+    EXPECT_EQ(server_.rows(limit).at(0).at(0), "1min");
+    ServerTransaction reading{server_, true};
+    EXPECT_EQ(server_.rows(limit).at(0).at(0), "0");
 }
 
 TEST_F(ServerConnections, TakeArraysOfAnyText) {

@@ -1,6 +1,7 @@
 #include "storage/store/server/cells/cell_drives.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/postgres/server_array.hpp"
 #include "storage/store/server/server_locks.hpp"
 #include "storage/store/server/server_tables.hpp"
@@ -104,6 +105,7 @@ void CellDrives::note(const std::string& trips, std::size_t count) {
     if (!notes_) {
         notes_.emplace(front_->address());
     }
+    const auto limit = set_idle_limit(*front_, "0"); // a lost standby holds the note up
     try {
         ServerTransaction one{*notes_};
         notes_->rows("INSERT INTO macadam.unfinished (trip) SELECT unnest($1::bigint[])", {trips});
@@ -112,6 +114,7 @@ void CellDrives::note(const std::string& trips, std::size_t count) {
         notes_.reset(); // perhaps broken
         throw;
     }
+    set_idle_limit(*front_, limit);
     if (front_
             ->rows("SELECT trip FROM macadam.unfinished WHERE trip = ANY($1::bigint[]) FOR UPDATE",
                    {trips})

@@ -1,6 +1,7 @@
 #include "storage/store/server/cells/cell_schema.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/postgres/role_grants.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/server/reader_rights.hpp"
@@ -341,6 +342,7 @@ CellServer add_cell_server(ServerConnection& front, const std::string& address) 
     }
     ServerConnection cell{address};
     cell.begin(false);
+    set_idle_limit(cell, "0"); // the front is waited for, and nobody waits for the new server
     create_cell_schema(cell);
     take_database(front); // changes of tables that importers use would stop in one another's way
     ServerTransaction all{front};

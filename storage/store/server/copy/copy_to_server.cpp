@@ -1,6 +1,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/postgres/ewkb.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/store/fusion/store_version.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/rows/store_digest.hpp"
@@ -231,6 +232,7 @@ StoreCopy copy_to_server(const fs::path& file,
     auto& database = store->database;
     Transaction one_moment{database, Transaction::Kind::read};
     server.begin(false);
+    set_idle_limit(server, "0"); // the digest of the file takes long, and nobody waits
     CopyToServer{database, server, *store, progress}.run();
     const StoreCopy copy{
         .trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")),

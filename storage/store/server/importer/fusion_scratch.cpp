@@ -1,6 +1,7 @@
 #include "storage/store/server/importer/fusion_scratch.hpp"
 
 #include "storage/postgres/copy_stream.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/rows/pass_row.hpp"
@@ -61,8 +62,10 @@ std::vector<FusedChunk> FusionScratch::fused(std::span<const std::int64_t> chunk
     copy_drives(conditions);
     ChunkFusion states{memory_};
     std::vector<FusedChunk> fused;
+    SignOfLife life{*server_};
     for (const auto chunk : chunks) {
         fused.push_back(states.of(chunk, image_->segments_per_chunk()));
+        life.give();
     }
     all.commit();
     return fused;

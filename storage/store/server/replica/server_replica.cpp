@@ -1,6 +1,7 @@
 #include "storage/store/server/replica/server_replica.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/postgres/idle_limit.hpp"
 #include "storage/store/rows/store_digest.hpp"
 #include "storage/store/server/cells/cell_moves.hpp"
 #include "storage/store/server/copy/new_copy.hpp"
@@ -72,6 +73,7 @@ private:
         const auto next = prepare_cells(server_, changing_cells());
         ServerTransaction all{server_};
         switch_cells(server_, next);
+        set_idle_limit(server_, "0"); // the digest of all of a country takes long
         write_back(server_, *copy_, changed, part_ ? ReplicaExtent::part : ReplicaExtent::all);
         if (!part_) {
             expect_same_digest(progress);
