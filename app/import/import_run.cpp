@@ -89,7 +89,8 @@ Progress until_it_takes_long(Progress fusing) {
 std::size_t fuse(ImportTarget& trips, const Console& console, FusionRecord record) {
     auto fusing = console.progress("fusing");
     trips.refresh(console.stop().stop_requested() ? until_it_takes_long(std::move(fusing)) : fusing,
-                  record);
+                  record,
+                  BusyChunks::await);
     return record.segments.size();
 }
 

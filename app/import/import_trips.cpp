@@ -152,7 +152,8 @@ private:
         }
         const auto begin = Clock::now();
         const std::scoped_lock lock{context_.store_in_use};
-        context_.store.trips->refresh({.report = {}, .stop = progress_.stop}, totals_.fusion);
+        context_.store.trips->refresh(
+            {.report = {}, .stop = progress_.stop}, totals_.fusion, BusyChunks::leave);
         has_unfused_ = false;
         fuse_at_ = Clock::now() +
                    std::max<Clock::duration>(context_.work.fuse_every, 4 * (Clock::now() - begin));

@@ -368,7 +368,8 @@ private:
 
     /// Fuses if the oldest new passes wait for so long. Several workers divide the chunks.
     ///
-    /// \param longest  after which trips have their turn: all chunks of a country take hours
+    /// \param longest  after which trips have their turn: all chunks of a country take hours;
+    ///                 `std::nullopt`: all are to be fused, also those that others fuse just now
     void fuse_if_older_than(std::chrono::seconds age, std::optional<std::chrono::seconds> longest) {
         const bool is_due =
             queue_->number(fmt::format("SELECT count(*) FROM (SELECT FROM macadam.chunk_dirty"
@@ -387,7 +388,9 @@ private:
             }
         };
         FusionRecord record;
-        store_->trips->refresh({.report = look, .stop = enough.get_token()}, record);
+        store_->trips->refresh({.report = look, .stop = enough.get_token()},
+                               record,
+                               longest ? BusyChunks::leave : BusyChunks::await);
         may_fuse_at_ = Clock::now() + 4 * (Clock::now() - begin); // a fifth of the time
     }
 

@@ -48,7 +48,7 @@ public:
         lock_.reset();
     }
 
-    std::size_t refresh(const Progress& progress, FusionRecord& record) override {
+    std::size_t refresh(const Progress& progress, FusionRecord& record, BusyChunks) override {
         return store_.importer.refresh(progress, record);
     }
 

@@ -7,6 +7,7 @@
 #include "storage/store/records/store_records.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -21,6 +22,10 @@ struct BegunImport {
     bool same_runs = false;            ///< another import of this name is running
     bool other_runs = false;           ///< another import is running
 };
+
+/// Chunks that somebody else fuses just now, or holds without going on: a fusion waits until they
+/// are fused, by whomever, or leaves them to the next one.
+enum class BusyChunks : std::uint8_t { await, leave };
 
 /// Database that takes trips in, on any engine. Each call is one transaction, durable on return;
 /// only refresh() takes several. Not for several threads at once.
@@ -73,7 +78,8 @@ public:
     ///
     /// \param record  of the earlier fusions of the same import; this one is added
     /// \returns the number of segments fused.
-    virtual std::size_t refresh(const Progress& progress, FusionRecord& record) = 0;
+    virtual std::size_t
+    refresh(const Progress& progress, FusionRecord& record, BusyChunks busy) = 0;
 
     /// Number of segments whose new passes are not fused yet.
     virtual std::size_t waiting() = 0;

@@ -176,7 +176,8 @@ private:
                 time.wait_for(lock, fused_all, fused_for, [] { return false; });
                 enough.request_stop();
             }};
-            open_.front().trips->refresh({.report = {}, .stop = enough.get_token()}, record);
+            open_.front().trips->refresh(
+                {.report = {}, .stop = enough.get_token()}, record, BusyChunks::await);
         });
         monitor_.run("TRUNCATE macadam.chunk_dirty");
         const double fused = passes() * static_cast<double>(record.segments.size()) /

@@ -167,7 +167,8 @@ private:
 
     void fuse() {
         FusionRecord record;
-        const auto cost = cost_of(monitor_, [&] { open_.front().trips->refresh({}, record); });
+        const auto cost =
+            cost_of(monitor_, [&] { open_.front().trips->refresh({}, record, BusyChunks::await); });
         const auto passes = static_cast<double>(next_trip_) * passes_a_trip;
         fmt::print("\n{} segments with {:.0f} passes fused: {:.0f} passes/s, {:.0f} a CPU second "
                    "of client and server, {:.0f} of the client\n",

@@ -138,7 +138,7 @@ void import_rich_trips(ImportTarget& trips, int count) {
 
 void fuse_all(ImportTarget& trips) {
     FusionRecord record;
-    trips.refresh({}, record);
+    trips.refresh({}, record, BusyChunks::await);
 }
 
 std::vector<std::string> rows_of_tables(const std::filesystem::path& file) {

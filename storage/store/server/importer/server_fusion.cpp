@@ -11,15 +11,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <set>
+#include <stop_token>
 #include <utility>
 
 namespace macadam {
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr std::size_t chunks_in_batch = 64;
+constexpr auto look_again_after = 100ms; // for chunks that others hold
+
+void pause(std::chrono::milliseconds time, const std::stop_token& stop) {
+    std::mutex mutex;
+    std::unique_lock lock{mutex};
+    std::condition_variable_any stopped;
+    stopped.wait_for(lock, stop, time, [] { return false; });
+}
 
 using States = std::map<std::int64_t, SegmentState>; ///< by row of the segment, without its key
 
@@ -152,7 +166,8 @@ ServerFusion::ServerFusion(ServerConnection& server,
     : server_{&server}, image_{&image}, rows_{&rows},
       expect_same_{std::move(expect_same)}, scratch_{server, image, rows}, marked_{server} {}
 
-std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& record) {
+std::size_t
+ServerFusion::fuse_marked(const Progress& progress, FusionRecord& record, BusyChunks busy) {
     std::vector<std::int64_t> segments;
     std::size_t done = 0;
     marked_.begin_round();
@@ -161,12 +176,14 @@ std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& re
         if (waiting.empty()) {
             break;
         }
-        fuse_each(
-            waiting,
-            {.report = [&](std::size_t part, std::size_t of) { progress(done + part, done + of); },
-             .stop = progress.stop},
-            record.audit,
-            segments);
+        const Progress part{
+            .report = [&](std::size_t some, std::size_t of) { progress(done + some, done + of); },
+            .stop = progress.stop};
+        if (busy == BusyChunks::await) {
+            fuse_all(waiting, part, record.audit, segments);
+        } else {
+            fuse_unlocked(waiting, part, record.audit, segments);
+        }
         if (!progress.stop.stop_requested()) {
             marked_.advance();
             done += waiting.size();
@@ -179,33 +196,42 @@ std::size_t ServerFusion::fuse_marked(const Progress& progress, FusionRecord& re
     return segments.size();
 }
 
-void ServerFusion::fuse_each(std::span<const std::int64_t> waiting,
-                             const Progress& progress,
-                             std::optional<std::int64_t>& audit,
-                             std::vector<std::int64_t>& segments) {
-    // Chunks that others fuse just now are left to the end, and then waited for one by one: who
-    // holds several locks never waits for another one.
+void ServerFusion::fuse_all(std::span<const std::int64_t> chunks,
+                            const Progress& progress,
+                            std::optional<std::int64_t>& audit,
+                            std::vector<std::int64_t>& segments) {
+    auto left = fuse_unlocked(chunks, progress, audit, segments);
+    // Never in the queue of a lock: who waits there cannot be stopped, nor do anything else.
+    while (!left.empty() && !progress.stop.stop_requested()) {
+        pause(look_again_after, progress.stop);
+        const auto done = chunks.size() - left.size();
+        left = fuse_unlocked(
+            left,
+            {.report = [&](std::size_t some, std::size_t) { progress(done + some, chunks.size()); },
+             .stop = progress.stop},
+            audit,
+            segments);
+    }
+}
+
+std::vector<std::int64_t> ServerFusion::fuse_unlocked(std::span<const std::int64_t> chunks,
+                                                      const Progress& progress,
+                                                      std::optional<std::int64_t>& audit,
+                                                      std::vector<std::int64_t>& segments) {
     std::vector<std::int64_t> left;
-    for (std::size_t done = 0; done < waiting.size() && !progress.stop.stop_requested();) {
-        const auto batch = waiting.subspan(done, std::min(chunks_in_batch, waiting.size() - done));
-        const auto fused = fuse(batch, false, audit, segments);
+    for (std::size_t done = 0; done < chunks.size() && !progress.stop.stop_requested();) {
+        const auto batch = chunks.subspan(done, std::min(chunks_in_batch, chunks.size() - done));
+        const auto fused = fuse(batch, audit, segments);
         std::ranges::copy_if(batch, std::back_inserter(left), [&](std::int64_t chunk) {
             return !std::ranges::binary_search(fused, chunk);
         });
         done += batch.size();
-        progress(done - left.size(), waiting.size());
+        progress(done - left.size(), chunks.size());
     }
-    for (std::size_t i = 0; i < left.size() && !progress.stop.stop_requested(); ++i) {
-        fuse(std::span{left}.subspan(i, 1), true, audit, segments);
-        progress(waiting.size() - left.size() + i + 1, waiting.size());
-    }
+    return left;
 }
 
-std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunks, bool waits) {
-    if (waits) {
-        server_->rows("SELECT pg_advisory_xact_lock($1)", {std::to_string(chunks.front())});
-        return {chunks.begin(), chunks.end()};
-    }
+std::vector<std::int64_t> ServerFusion::try_lock(std::span<const std::int64_t> chunks) {
     auto locked = server_->numbers("SELECT chunk FROM unnest($1::bigint[]) AS chunk"
                                    " WHERE pg_try_advisory_xact_lock(chunk)",
                                    {array_of(chunks)});
@@ -214,13 +240,12 @@ std::vector<std::int64_t> ServerFusion::lock(std::span<const std::int64_t> chunk
 }
 
 std::vector<std::int64_t> ServerFusion::fuse(std::span<const std::int64_t> chunks,
-                                             bool waits,
                                              std::optional<std::int64_t>& audit,
                                              std::vector<std::int64_t>& segments) {
     auto audit_now = audit; // that of this transaction
     ServerTransaction all{*server_};
     expect_same_();
-    auto locked = lock(chunks, waits); // a statement of its own: later ones see what came before it
+    auto locked = try_lock(chunks); // a statement of its own: later ones see what came before it
     Batch batch;
     const auto marks = server_->numbers("SELECT chunk, trip FROM macadam.chunk_dirty"
                                         " WHERE chunk = ANY($1::bigint[]) ORDER BY chunk",

@@ -104,8 +104,8 @@ public:
         release_import_lock(*server_, number_of_import(name));
     }
 
-    std::size_t refresh(const Progress& progress, FusionRecord& record) override {
-        const auto fused = fusion_.fuse_marked(progress, record);
+    std::size_t refresh(const Progress& progress, FusionRecord& record, BusyChunks busy) override {
+        const auto fused = fusion_.fuse_marked(progress, record, busy);
         remove_old_changes(*server_);
         return fused;
     }

@@ -110,10 +110,10 @@ TEST_P(DatabaseOnAnyEngine, FusesWhatIsNewAndThenNothing) {
     add_rich_trip(*store.trips, 1);
     EXPECT_EQ(store.trips->waiting(), 20U);
     FusionRecord record;
-    EXPECT_EQ(store.trips->refresh({}, record), 20U);
+    EXPECT_EQ(store.trips->refresh({}, record, BusyChunks::await), 20U);
     EXPECT_TRUE(record.audit);
     EXPECT_EQ(store.trips->waiting(), 0U);
-    EXPECT_EQ(store.trips->refresh({}, record), 0U);
+    EXPECT_EQ(store.trips->refresh({}, record, BusyChunks::await), 0U);
     EXPECT_EQ(store.trips->alignment().drives, 2);
 }
 

@@ -8,7 +8,6 @@
 #include "storage/store/server/replica/server_replica.hpp"
 #include "support/files/files.hpp"
 #include "support/program/lost_standby.hpp"
-#include "support/roads/crowd_drives.hpp"
 #include "support/roads/engine_world.hpp"
 #include "support/roads/store_world.hpp"
 
@@ -19,7 +18,6 @@
 #include <cstdlib>
 #include <future>
 #include <random>
-#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -314,30 +312,6 @@ TEST_F(ServerImports, AreWrittenByTheRoleOfAnImporter) {
     EXPECT_FALSE(add_rich_trip(*open.trips, 1)); // known
     EXPECT_EQ(StoreReader{open_server_reader(address, {}, Audience::operator_, {}, {})}.digest(),
               file_digest(3));
-}
-
-TEST(ServerFusion, LeavesTheRestToTheNextCallWhenItIsStopped) {
-    constexpr int road_count = 80; // chunks, more than are fused in one transaction
-    const EngineDatabase database{
-        Engine::postgresql, test_folder(), roads_in_a_row(road_count), settings()};
-    const auto open = database.import();
-    const CrowdDrive drive{1, 1, january_ms, 2000, false, road_count};
-    const auto record = drive.record();
-    const auto passes = drive.passes();
-    const NewTrip trip{&record, passes, {}, false, {}};
-    open.trips->add_trips({&trip, 1});
-    const auto all = open.trips->waiting();
-    std::stop_source enough;
-    FusionRecord fused;
-    const auto first =
-        open.trips->refresh({.report = [&](std::size_t, std::size_t) { enough.request_stop(); },
-                             .stop = enough.get_token()},
-                            fused);
-    EXPECT_GT(first, 0U);
-    EXPECT_GT(open.trips->waiting(), 0U);
-    EXPECT_EQ(first + open.trips->waiting(), all);
-    EXPECT_EQ(first + open.trips->refresh({}, fused), all);
-    EXPECT_EQ(open.trips->waiting(), 0U);
 }
 
 } // namespace
