@@ -330,7 +330,7 @@ TEST_F(StoreCopies, NameWhyTheyCannotConnectAndNoPassword) {
 TEST_F(StoreCopies, AreUpgradedByASuperuserForTheirOwner) {
     make_rich_store(file_);
     const auto digest = copy_there().digest;
-    change("DROP TABLE macadam.published_state, macadam.published_until,"
+    change("DROP TABLE macadam.announced_log, macadam.published_state, macadam.published_until,"
            " macadam.published_pending, macadam.published_figure, macadam.published_event,"
            " macadam.publication; DELETE FROM macadam.migration WHERE number > 6");
     ServerConnection by_superuser{server_.address("roads")};
