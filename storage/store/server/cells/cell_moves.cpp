@@ -55,14 +55,14 @@ BEGIN
     END LOOP;
 END $$;
 
-CREATE OR REPLACE FUNCTION macadam.lost_cells() RETURNS SETOF integer
+CREATE OR REPLACE FUNCTION macadam.lost_cells(cells integer[]) RETURNS SETOF integer
 LANGUAGE plpgsql SECURITY DEFINER SET search_path = pg_catalog, pg_temp AS $$
 DECLARE
     place record;
     is_filled boolean;
 BEGIN
     FOR place IN SELECT cell, number, to_regclass('macadam.filled_' || server) AS filled
-                 FROM macadam.cell_place ORDER BY cell LOOP
+                 FROM macadam.cell_place WHERE cell = ANY (cells) ORDER BY cell LOOP
         IF place.filled IS NOT NULL THEN
             EXECUTE format('SELECT EXISTS (SELECT FROM %s WHERE number = $1)', place.filled)
             INTO is_filled USING place.number;
@@ -127,7 +127,7 @@ END $$;
 
 COMMENT ON FUNCTION macadam.prepare_cell IS 'Copies the tables of a cell on its server, under the number that it returns';
 COMMENT ON FUNCTION macadam.note_filled IS 'Notes on the server of a cell that its tables are filled';
-COMMENT ON FUNCTION macadam.lost_cells IS 'Cells whose server lost the rows that it got, as in a failover';
+COMMENT ON FUNCTION macadam.lost_cells IS 'Those of these cells whose server lost the rows that it got, as in a failover';
 COMMENT ON FUNCTION macadam.switch_cells IS 'Lets cells have the tables of these numbers';
 COMMENT ON FUNCTION macadam.drop_unused_cell_tables IS 'Removes tables of cells, here and on other servers, that were replaced';
 REVOKE ALL ON FUNCTION macadam.prepare_cell, macadam.note_filled, macadam.lost_cells, macadam.switch_cells, macadam.drop_unused_cell_tables
@@ -272,10 +272,10 @@ void await_standby_of_front(ServerConnection& front) {
     one.commit();
 }
 
-/// Refuses to go on if a server lost rows that the front counts on, whatever its standbys have: it
-/// failed, and a standby took over that lacked them.
-void expect_no_lost_cells(ServerConnection& front) {
-    const auto lost = front.numbers("SELECT macadam.lost_cells()");
+/// Refuses to go on if a server lost rows of these cells that the front counts on, whatever its
+/// standbys have: it failed, and a standby took over that lacked them.
+void expect_no_lost_cells(ServerConnection& front, const std::set<std::int32_t>& cells) {
+    const auto lost = front.numbers("SELECT macadam.lost_cells($1)", {array_of(cells)});
     if (!lost.empty()) {
         throw InputError{fmt::format("{}: another server lost the rows that it got of cell {}, as "
                                      "in a failover without its standby; nothing is removed, rows "
@@ -341,6 +341,7 @@ std::int64_t move_cell(ServerConnection& front, std::int32_t cell, const std::st
     ServerTransaction all{front};
     take_cell(front, cell);
     act_as_owner(front);
+    expect_no_lost_cells(front, {cell}); // at the moment that is copied
     CellMove move{front, cell, number};
     to ? move.add_tables_on(*to) : move.add_tables_here();
     const auto rows = move.copy_rows();
@@ -388,7 +389,7 @@ void drop_unused_cell_tables(ServerConnection& front) {
     }
     await_standby_of_front(front);
     await_standbys(front, cells_elsewhere(front)); // else what replaced them may go with a server
-    expect_no_lost_cells(front);
+    expect_no_lost_cells(front, cells_elsewhere(front));
     try {
         front.rows("SELECT macadam.drop_unused_cell_tables()");
     } catch (const InputError& error) {

@@ -321,9 +321,12 @@ TEST_F(Cells, StayWhereTheyWereIfTheirNewServerLostThemInAFailover) {
     ServerConnection{boss}.run( // the last transaction is gone, that before it made the tables
         "TRUNCATE macadam.drive_" + suffix + ", macadam.segment_state_" + suffix +
         "; DELETE FROM macadam.filled WHERE number = (SELECT max(number) FROM macadam.filled)");
-    EXPECT_THAT(refusal_of([&] { move(0, east_); }),
-                HasSubstr("another server lost the rows that it got of cell " +
-                          std::to_string(numbers_.at(0))));
+    for (const auto& to : {east_, west_, boss_}) {
+        EXPECT_THAT(refusal_of([&] { move(0, to); }),
+                    HasSubstr("another server lost the rows that it got of cell " +
+                              std::to_string(numbers_.at(0))))
+            << to;
+    }
     EXPECT_EQ(drives_in(west_), drives_of_first_cell * 2);
 }
 
