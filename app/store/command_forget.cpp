@@ -6,7 +6,6 @@
 #include "app/jobs/log_backlog.hpp"
 #include "app/uploads/upload_work.hpp"
 
-#include "estimator/common/error.hpp"
 #include "storage/postgres/server_address.hpp"
 #include "storage/store/server/replica/server_replica.hpp"
 #include "storage/text/json.hpp"
