@@ -3,7 +3,7 @@
 #include "app/database/segment_options.hpp"
 #include "app/database/server_store.hpp"
 #include "app/jobs/forgotten_logs.hpp"
-#include "app/jobs/log_backlog.hpp"
+#include "app/store/log_backlog.hpp"
 #include "app/uploads/upload_work.hpp"
 
 #include "storage/postgres/server_address.hpp"

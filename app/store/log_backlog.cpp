@@ -1,4 +1,4 @@
-#include "app/jobs/log_backlog.hpp"
+#include "app/store/log_backlog.hpp"
 
 #include "app/jobs/job_options.hpp"
 #include "app/jobs/job_worker.hpp"
