@@ -281,14 +281,17 @@ TEST(Workers, ParkNoLogWhileTheirStatementsAreCancelled) {
     auto words = world.worker_words();
     std::erase(words, "--once");
     PipedProgram worker{words};
-    for (std::int64_t cancelled = 0; cancelled < 3;) { // the test's time limit ends it
+    const auto unfinished = [&] {
+        return server.number("SELECT count(*) FROM macadam.job WHERE finished_at IS NULL");
+    };
+    for (std::int64_t cancelled = 0; cancelled < 3 && unfinished() > 0;) {
         std::this_thread::sleep_for(100ms);
         cancelled += server.number("SELECT count(pg_cancel_backend(pid)) FROM pg_stat_activity"
                                    " WHERE wait_event_type = 'Lock'"
                                    " AND datname = current_database()");
     }
     holder.roll_back();
-    while (server.number("SELECT count(*) FROM macadam.job WHERE finished_at IS NULL") > 0) {
+    while (unfinished() > 0) { // the test's time limit ends it
         std::this_thread::sleep_for(100ms);
     }
     worker.signal(SIGTERM);
