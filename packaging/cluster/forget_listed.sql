@@ -45,6 +45,7 @@ DELETE FROM macadam.trip WHERE id IN (SELECT id FROM leaving);
 DELETE FROM macadam.calibration WHERE vehicle NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
 DELETE FROM macadam.calibration_period WHERE vehicle NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
 DELETE FROM macadam.vehicle WHERE id NOT IN (SELECT vehicle FROM macadam.trip WHERE vehicle IS NOT NULL);
+UPDATE macadam.meta SET value = gen_random_uuid()::text WHERE key = 'store_rows'; -- copies that readers keep are fetched anew
 INSERT INTO macadam.audit (at, generation, what, detail)
     SELECT to_char(now() AT TIME ZONE 'UTC', 'YYYY-MM-DD"T"HH24:MI:SS"Z"'),
            (SELECT value::bigint FROM macadam.meta WHERE key = 'generation'), 'forget',
