@@ -40,6 +40,17 @@ void sync(const fs::path& folder) {
     }
 }
 
+/// Gives a new file or folder all rights of the store, of which the umask may have taken some.
+void give_rights(const fs::path& made, mode_t rights) {
+    constexpr mode_t all_rights = 0777;
+    struct stat status {};
+    if (::stat(made.c_str(), &status) != 0 ||
+        ((status.st_mode & all_rights) != rights &&
+         ::chmod(made.c_str(), (status.st_mode & ~all_rights) | rights) != 0)) {
+        fail(made, "cannot be given the rights of its folder", errno);
+    }
+}
+
 class FolderObjects final : public ObjectStore {
 public:
     FolderObjects(fs::path root, MissingFolder missing) : root_{std::move(root)} {
@@ -75,6 +86,7 @@ public:
         }
         from.expect(object, file);
         out.commit();
+        give_rights(path, mode_ & 0666U);
     }
 
     void fetch(const LogObject& object, const fs::path& file) override {
@@ -134,7 +146,9 @@ private:
 
     /// Makes a subfolder with the rights of the store, durably.
     void make(const fs::path& folder) const {
-        if (::mkdir(folder.c_str(), mode_) != 0 && errno != EEXIST) {
+        if (::mkdir(folder.c_str(), mode_) == 0) {
+            give_rights(folder, mode_);
+        } else if (errno != EEXIST) {
             fail(folder, "cannot be made", errno);
         }
         sync(folder.parent_path()); // another program may have made it just now

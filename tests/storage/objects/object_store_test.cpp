@@ -97,6 +97,13 @@ TEST(FolderObjects, AreForTheirOwnerAloneUnlessTheFolderSaysOtherwise) {
     ::chmod((folder / "shared").c_str(), 0750);
     open_object_store((folder / "shared").string())->put(object, folder / "in");
     EXPECT_EQ(mode_of(folder / "shared" / path), 0640U);
+    fs::create_directory(folder / "of a group");
+    ::chmod((folder / "of a group").c_str(), 02770);
+    const auto before = ::umask(077);
+    open_object_store((folder / "of a group").string())->put(object, folder / "in");
+    ::umask(before);
+    EXPECT_EQ(mode_of(folder / "of a group" / path), 0660U);
+    EXPECT_EQ(mode_of((folder / "of a group" / path).parent_path()), 0770U);
 }
 
 TEST(FolderObjects, AreNotSoughtWhereNothingIsMounted) {
