@@ -206,7 +206,8 @@ private:
         } catch (const ObjectsAway&) { // after all were given back or imported
             throw;
         } catch (const ServerTrouble&) {
-            put_back(taken);
+            put_back(taken, 2 * after_trouble); // others first: a limit may always meet these
+            batch_ = std::max(batch_ / 2, options_.jobs);
             throw;
         } catch (const OtherResults&) {
             put_back(taken);
@@ -280,9 +281,9 @@ private:
 
     /// After trouble of the server or a stop request; what cannot be given back comes free with its
     /// lease.
-    void put_back(const std::vector<Job>& jobs) {
+    void put_back(const std::vector<Job>& jobs, std::chrono::seconds pause = {}) {
         try {
-            put_back_jobs(*queue_, taker_, jobs);
+            put_back_jobs(*queue_, taker_, jobs, pause);
         } catch (const InputError&) {
             queue_.reset();
         }
@@ -308,8 +309,10 @@ private:
         erase_unsubmitted();
     }
 
-    /// Removes logs from the object store, which may be slow, within a transaction of the queue.
+    /// Removes logs from the object store within a transaction of the queue, whose locks keep the
+    /// same logs from being stored anew meanwhile: a slow store tries a log for minutes.
     void erase(const std::vector<std::string>& logs) {
+        set_idle_limit(*queue_, "10min");
         SignOfLife life{*queue_};
         for (const auto& sha256 : logs) {
             call_objects([&] { stores_.front()->remove(sha256); });

@@ -137,9 +137,12 @@ void end_announcements(ServerConnection& server,
          server.rows("WITH announced AS (SELECT sha256 FROM macadam.announced_log"
                      " WHERE sha256 = ANY($1) ORDER BY sha256 FOR UPDATE)"
                      " DELETE FROM macadam.announced_log USING announced"
-                     " WHERE announced_log.sha256 = announced.sha256 RETURNING announced.sha256",
+                     " WHERE announced_log.sha256 = announced.sha256 RETURNING announced.sha256,"
+                     " announced_at > clock_timestamp() - interval '1 day'",
                      {hashes_of(logs)})) {
-        lost.erase(row[0].value_or(""));
+        if (row[1] == "t") { // else who erases it may have been interrupted
+            lost.erase(row[0].value_or(""));
+        }
     }
     for (const auto& row : server.rows("SELECT sha256 FROM macadam.job WHERE sha256 = ANY($1)"
                                        " AND state IN ('outside', 'refused') AND NOT has_object",
@@ -148,10 +151,10 @@ void end_announcements(ServerConnection& server,
     }
     if (!lost.empty()) {
         throw InputError{
-            fmt::format("{}: {} stored over a day ago, not queued, and erased since, "
-                        "such as {}; nothing was queued: store and submit {} again",
+            fmt::format("{}: {} not in the object store any more, such as {}; nothing was "
+                        "queued: store and submit {} again",
                         server.address(),
-                        lost.size() == 1 ? "a log was" : fmt::format("{} logs were", lost.size()),
+                        lost.size() == 1 ? "a log is" : fmt::format("{} logs are", lost.size()),
                         *lost.begin(),
                         lost.size() == 1 ? "it" : "them")};
     }

@@ -356,6 +356,7 @@ CellServer add_cell_server(ServerConnection& front, const std::string& address) 
     add_foreign_server(front, server, address);
     front.rows("INSERT INTO macadam_cells.address VALUES ($1, $2)",
                {server.name, server.connection});
+    set_idle_limit(front, "0"); // a lost standby holds the new server up
     cell.commit();
     all.commit();
     release_database(front);
