@@ -6,7 +6,6 @@
 #include "storage/jobs/worker_register.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
